@@ -1,1 +1,34 @@
-//! Placeholder.
+//! Reflectance for image-based lighting: normal distributions, masking-shadowing, Fresnel, prefilter lobes and
+//! directional albedo (the DFG table).
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`roughness`] | [`PerceptualRoughness`] p and [`Alpha`] α = p² |
+//! | [`ndf`] | normal distributions: GGX, Beckmann, Blinn-Phong, Charlie |
+//! | [`visibility`] | masking-shadowing as V = G / (4 n·l n·v), for metals and dielectrics and for sheen |
+//! | [`fresnel`] | Schlick's approximation |
+//! | [`lobe`] | the zonal lobes that prefilter an environment for v = n = r |
+//! | [`dfg`] | directional and average albedo by deterministic quadrature |
+//! | [`dfg_table`] | the albedo tabulated over n·v and perceptual roughness |
+//!
+//! Everything is f64, isotropic and free of state. The functions are total: out-of-range roughness cannot be built
+//! (see [`Alpha::new`]), and α = 0 is computed as α = [`ndf::MIN_ALPHA`].
+
+pub mod dfg;
+pub mod dfg_table;
+mod error;
+pub mod fresnel;
+mod half_vector_rule;
+pub mod lobe;
+pub mod ndf;
+pub mod roughness;
+mod special;
+pub mod visibility;
+
+pub use dfg::DfgTerms;
+pub use dfg_table::DfgTable;
+pub use error::BsdfError;
+pub use lobe::{Lobe, LobeShape, LobeWeight};
+pub use ndf::Ndf;
+pub use roughness::{Alpha, PerceptualRoughness};
+pub use visibility::{Cosines, Masking, SheenMasking};

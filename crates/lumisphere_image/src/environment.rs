@@ -1,5 +1,7 @@
 //! The environment: radiance on a grid of texels over the sphere.
 
+use crate::rows::map_rows;
+use crate::weights::{Measure, TexelWeights};
 use lumisphere_sphere::{Grid, Projection, Vec3};
 
 /// Linear Rec.709 radiance of one texel, in any linear scale of W·sr⁻¹·m⁻².
@@ -22,6 +24,11 @@ impl Environment {
             return Err(crate::ImageError::TexelCount { found: texels.len(), expected: grid.texel_count() });
         }
         Ok(Self { grid, texels })
+    }
+
+    /// The same radiance everywhere, texels outside the projection's domain included.
+    pub fn filled(grid: Grid, radiance: Rgb) -> Self {
+        Self { grid, texels: vec![radiance; grid.texel_count()] }
     }
 
     /// One radiance for each texel from its centre's direction; black outside the projection's domain.
@@ -70,18 +77,20 @@ impl Environment {
 
     /// Mean radiance over the sphere, each texel weighted by its exact solid angle, summed in f64.
     pub fn mean(&self) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        let mut area = 0.0;
-        for face in 0..self.grid.face_count() {
-            for y in 0..self.grid.height() {
-                for (x, texel) in self.row(face, y).iter().enumerate() {
-                    let omega = self.grid.texel_solid_angle(face, x, y);
-                    area += omega;
-                    for c in 0..3 {
-                        sum[c] += omega * f64::from(texel[c]);
-                    }
-                }
+        let weights = TexelWeights::new(self.grid, Measure::SolidAngle);
+        let rows = map_rows(self, |face, y, texels| {
+            let mut row = ([0.0; 3], 0.0);
+            for (x, texel) in texels.iter().enumerate() {
+                let omega = weights.at(face, x, y);
+                row.0 = std::array::from_fn(|c| row.0[c] + omega * f64::from(texel[c]));
+                row.1 += omega;
             }
+            row
+        });
+        let (mut sum, mut area) = ([0.0; 3], 0.0);
+        for (row_sum, row_area) in rows {
+            sum = std::array::from_fn(|c| sum[c] + row_sum[c]);
+            area += row_area;
         }
         sum.map(|s| s / area)
     }

@@ -1,6 +1,6 @@
 //! What can be wrong with an environment image.
 
-use lumisphere_sphere::GridError;
+use lumisphere_sphere::{GridError, Projection};
 
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -26,5 +26,39 @@ pub enum ImageError {
         found: usize,
         /// Width expected.
         expected: usize,
+    },
+    /// A cube map is needed.
+    #[error("expected a cube map, found {found:?}")]
+    NotCube {
+        /// Projection found.
+        found: Projection,
+    },
+    /// A parameter out of its range.
+    #[error("{name} must be {expected}, found {found}")]
+    Setting {
+        /// What it is.
+        name: &'static str,
+        /// Value found.
+        found: f64,
+        /// The range.
+        expected: &'static str,
+    },
+    /// Texels that are no radiance, where none are allowed.
+    #[error(
+        "expected finite radiance of at least 0, found {nan} NaN, {infinite} infinite and {negative} negative texels"
+    )]
+    Unclean {
+        /// Texels with a NaN.
+        nan: usize,
+        /// Texels with an infinity.
+        infinite: usize,
+        /// Texels with a finite negative channel.
+        negative: usize,
+    },
+    /// Nothing to scale.
+    #[error("expected a positive illuminance of the upper hemisphere, found {found}")]
+    Illuminance {
+        /// `∫ L_Y max(y, 0) dω` found.
+        found: f64,
     },
 }

@@ -1,0 +1,20 @@
+//! Khronos textures, version 2 (`.ktx2`): 2D and cube textures with levels in the HDR formats.
+//!
+//! The layout follows the KTX 2.0 specification: header, level index, data format descriptor, key/value data, then the
+//! levels, smallest first. Cube faces are +X -X +Y -Y +Z -Z with the orientation of CONVENTIONS.md, which is KTX's own.
+//! Descriptors follow the Khronos Data Format Specification 1.3: model RGBSDA, primaries BT.709, linear transfer.
+//! A supercompressed file keeps `bytesPlane0`, as revision 2.0.4 of the KTX specification asks; revisions before it
+//! wanted 0 there, and readers use neither.
+
+mod format;
+mod picture;
+mod read;
+mod write;
+
+pub use format::{Faces, TexelFormat};
+pub use picture::decode_picture;
+pub use read::{KtxTexture, decode};
+pub use write::{LevelTexels, Supercompression, Texture, encode};
+
+#[cfg(test)]
+mod tests;

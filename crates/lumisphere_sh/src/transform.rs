@@ -1,0 +1,511 @@
+//! The fast transform between a lat-long picture and its spherical-harmonic spectrum.
+//!
+//! A real FFT along each row and a Legendre sum down each column: O(W H log W + H L²) instead of O(W H L²).
+//! Row j and its mirror H-1-j share `P(l, m; ±x) = (±1)^(l+m) P`, so their sum meets the even l+m and their
+//! difference the odd ones, which halves the work. Rows where an order is negligible are skipped.
+//!
+//! The spectrum lives in the *panorama frame*: the polar axis is the picture's (world +Y) and φ runs with u, so that
+//! no coefficient is mixed with another; [`Spectrum::to_sh`] turns it into the world's convention.
+
+use crate::legendre::{LegendreTable, is_negligible};
+use fearless_simd::{Level, dispatch, prelude::*};
+use fearless_simd_macros::simd;
+use lumisphere_sphere::latlong;
+use lumisphere_sphere::quadrature::fejer_first;
+use rayon::prelude::*;
+use realfft::num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+/// Pairs of mirrored rows that are transformed together; a multiple of every SIMD width in use.
+const TILE: usize = 8;
+/// Numbers a coefficient has: cosine and sine part of three channels.
+const PARTS: usize = 6;
+/// Pairs of rows a synthesis task owns: enough that the coefficients it reads are used several times from cache.
+const SYNTHESIS_PAIRS: usize = 4 * TILE;
+
+/// A sample of a picture: `f32` for images, `f64` where the transform itself is measured.
+pub trait Sample: Copy + Send + Sync + Default {
+    /// To f64, exactly.
+    fn widen(self) -> f64;
+    /// Rounded from f64.
+    fn narrow(value: f64) -> Self;
+}
+
+impl Sample for f32 {
+    fn widen(self) -> f64 {
+        f64::from(self)
+    }
+    fn narrow(value: f64) -> Self {
+        value as f32
+    }
+}
+
+impl Sample for f64 {
+    fn widen(self) -> f64 {
+        self
+    }
+    fn narrow(value: f64) -> Self {
+        value
+    }
+}
+
+/// How much of the sphere a row stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowWeights {
+    /// The exact solid angle of its texels: the spectrum is that of the picture as a sum of texels.
+    TexelSolidAngle,
+    /// Fejér's first rule: exact for a function whose band is below half the height.
+    Fejer,
+}
+
+/// Spherical-harmonic coefficients of an RGB picture below a band, in the panorama frame.
+#[derive(Debug, Clone)]
+pub struct Spectrum {
+    band: usize,
+    /// Order after order, l rising: cosine and sine part of R, of G, of B.
+    values: Vec<[f64; PARTS]>,
+    table: Arc<LegendreTable>,
+}
+
+/// Even and odd Fourier sums of one tile: `[m][parity][part][row]`.
+type TileSums = [[[f64; TILE]; PARTS]; 2];
+
+impl Spectrum {
+    /// Coefficients of degree l < `band` of a lat-long picture of `width` texels a row.
+    ///
+    /// Any band may be asked for; the sum over texels is computed as it stands, whatever its aliases.
+    pub fn forward<T: Sample>(texels: &[[T; 3]], width: usize, band: usize, weights: RowWeights) -> Self {
+        let height = texels.len() / width;
+        let rows = Rows::new(height);
+        let table = Arc::new(LegendreTable::new(band));
+        let sums = fourier_sums(texels, width, band, &row_weights(width, height, weights), &rows);
+        let columns: Vec<Vec<[f64; PARTS]>> = balanced_orders(band)
+            .into_par_iter()
+            .map(|m| {
+                let level = Level::new();
+                dispatch!(level, simd => legendre_sums(simd, &table, m, band, &rows, &sums))
+            })
+            .collect();
+        let mut values = vec![[0.0; PARTS]; LegendreTable::offset(band, band)];
+        for (m, column) in balanced_orders(band).into_iter().zip(columns) {
+            let start = LegendreTable::offset(band, m);
+            values[start..start + column.len()].copy_from_slice(&column);
+        }
+        Self { band, values, table }
+    }
+
+    /// Degrees l < band are held.
+    pub fn band(&self) -> usize {
+        self.band
+    }
+
+    /// The picture whose band l is scaled by `kernel[l]`, on a lat-long grid; bands beyond `kernel` are dropped.
+    pub fn synthesise<T: Sample>(&self, kernel: &[f64], width: usize, height: usize) -> Vec<[T; 3]> {
+        let mut picture = vec![[T::default(); 3]; width * height];
+        let rows = Rows::new(height);
+        let band = self.band.min(kernel.len());
+        let scaled = self.scaled(&kernel[..band]);
+        let inverse = RealFftPlanner::<f64>::new().plan_fft_inverse(width);
+        // A task owns some rows from the top and their mirrors from the bottom; the middle row of an odd height is
+        // a northern row without mirror.
+        let north_rows = height.div_ceil(2);
+        let (north, south) = picture.split_at_mut(north_rows * width);
+        let mut souths: Vec<&mut [[T; 3]]> = south.chunks_mut(width).rev().collect();
+        souths.resize_with(north_rows, Default::default);
+        north
+            .par_chunks_mut(width * SYNTHESIS_PAIRS)
+            .zip(souths.par_chunks_mut(SYNTHESIS_PAIRS))
+            .enumerate()
+            .for_each(|(task, (north, south))| {
+                let mut writer = RowWriter::new(&inverse, width, band);
+                for (i, (north, south)) in
+                    north.chunks_mut(width * TILE).zip(south.chunks_mut(TILE)).enumerate()
+                {
+                    writer.start();
+                    let tile = task * (SYNTHESIS_PAIRS / TILE) + i;
+                    for m in 0..band {
+                        let start = LegendreTable::offset(band, m);
+                        let column = &scaled[start..start + band - m];
+                        if rows.tile_is_negligible(tile, band, m) {
+                            continue;
+                        }
+                        let level = Level::new();
+                        let sums = dispatch!(level, simd => column_sums(simd, &self.table, m, column, &rows, tile));
+                        writer.add_order(m, &sums);
+                    }
+                    writer.write(north, south);
+                }
+            });
+        picture
+    }
+
+    /// `kernel[l] a_lm`, packed for the smaller band.
+    fn scaled(&self, kernel: &[f64]) -> Vec<[f64; PARTS]> {
+        let band = kernel.len();
+        let mut scaled = Vec::with_capacity(LegendreTable::offset(band, band));
+        for m in 0..band {
+            let start = LegendreTable::offset(self.band, m);
+            scaled.extend((m..band).map(|l| self.values[start + l - m].map(|a| a * kernel[l])));
+        }
+        scaled
+    }
+
+    /// Coefficient (l, m) with m in -l..=l of the real basis about the panorama's axis, Condon-Shortley sign included:
+    /// the basis of CONVENTIONS.md on the turned direction (x, -z, y).
+    fn turned_coefficient(&self, l: usize, m: i64) -> [f64; 3] {
+        let order = m.unsigned_abs() as usize;
+        let parts = self.values[LegendreTable::offset(self.band, order) + l - order];
+        let sign = if order % 2 == 1 { -1.0 } else { 1.0 };
+        // The turned frame's azimuth is -φ, so sines change sign.
+        if m >= 0 {
+            [0, 2, 4].map(|i| sign * parts[i])
+        } else {
+            [1, 3, 5].map(|i| -sign * parts[i])
+        }
+    }
+
+    /// The lowest `band_count` bands as coefficients in the world frame (CONVENTIONS.md).
+    pub fn to_sh(&self, band_count: usize) -> crate::ShRgb {
+        let bands = band_count.min(self.band);
+        let mut values = Vec::with_capacity(bands * bands);
+        for l in 0..bands {
+            let l_signed = l as i64;
+            values.extend((-l_signed..=l_signed).map(|m| self.turned_coefficient(l, m)));
+        }
+        // (x, -z, y) is the world turned by +90° about +X; turn back.
+        let back = lumisphere_sphere::Rotation::from_axis_angle([1.0, 0.0, 0.0], -0.5 * PI);
+        crate::ShRotation::new(&back, bands).apply(&crate::ShRgb::from_values(bands, values))
+    }
+}
+
+/// sin θ and cos θ of the northern rows, padded with empty rows to whole tiles.
+struct Rows {
+    sin: Vec<f64>,
+    cos: Vec<f64>,
+    height: usize,
+}
+
+impl Rows {
+    fn new(height: usize) -> Self {
+        let padded = height.div_ceil(2).next_multiple_of(TILE);
+        let theta = |j: usize| PI * (j as f64 + 0.5) / height as f64;
+        let pairs = height.div_ceil(2);
+        Self {
+            sin: (0..padded).map(|j| if j < pairs { theta(j).sin() } else { 0.0 }).collect(),
+            cos: (0..padded).map(|j| if j < pairs { theta(j).cos() } else { 0.0 }).collect(),
+            height,
+        }
+    }
+
+    fn tile_count(&self) -> usize {
+        self.sin.len() / TILE
+    }
+
+    /// sin θ rises with the row, so the last row of a tile decides.
+    fn tile_is_negligible(&self, tile: usize, band: usize, m: usize) -> bool {
+        let pairs = self.height.div_ceil(2);
+        let last = (tile * TILE + TILE - 1).min(pairs - 1);
+        is_negligible(band, m, self.sin[last])
+    }
+
+    /// The first tile that matters to order m.
+    fn first_tile(&self, band: usize, m: usize) -> usize {
+        (0..self.tile_count()).find(|&t| !self.tile_is_negligible(t, band, m)).unwrap_or(self.tile_count())
+    }
+}
+
+/// Steradians that one texel of each row stands for.
+fn row_weights(width: usize, height: usize, weights: RowWeights) -> Vec<f64> {
+    match weights {
+        RowWeights::TexelSolidAngle => (0..height).map(|j| latlong::texel_solid_angle(width, height, j)).collect(),
+        RowWeights::Fejer => fejer_first(height).weights.iter().map(|w| w * TAU / width as f64).collect(),
+    }
+}
+
+/// Low orders carry the longest columns: deal them so that every part of the list weighs about the same.
+fn balanced_orders(band: usize) -> Vec<usize> {
+    (0..band.div_ceil(2)).flat_map(|m| [m, band - 1 - m]).take(band).collect()
+}
+
+/// e^(-i m φ₀) for the first texel's centre, φ₀ = π/W - π.
+fn phase(m: usize, width: usize) -> Complex<f64> {
+    Complex::from_polar(1.0, -(m as f64) * (PI / width as f64 - PI))
+}
+
+/// Step one: the weighted Fourier sums of every row, mirrored rows folded, tile after tile.
+fn fourier_sums<T: Sample>(
+    texels: &[[T; 3]],
+    width: usize,
+    band: usize,
+    weights: &[f64],
+    rows: &Rows,
+) -> Vec<TileSums> {
+    let forward = RealFftPlanner::<f64>::new().plan_fft_forward(width);
+    let phases: Vec<_> = (0..band).map(|m| phase(m, width)).collect();
+    let height = rows.height;
+    let pairs = height.div_ceil(2);
+    let mut sums = vec![[[[0.0; TILE]; PARTS]; 2]; rows.tile_count() * band];
+    sums.par_chunks_mut(band).enumerate().for_each(|(tile, sums)| {
+        let mut reader = RowReader::new(&forward, width);
+        for lane in 0..TILE.min(pairs - (tile * TILE).min(pairs)) {
+            let north = tile * TILE + lane;
+            let south = height - 1 - north;
+            for channel in 0..3 {
+                reader.load(texels, width, north, channel, weights[north]);
+                for (m, sum) in sums.iter_mut().enumerate() {
+                    let z = reader.bin(m) * phases[m];
+                    for parity in 0..2 {
+                        sum[parity][2 * channel][lane] = z.re;
+                        sum[parity][2 * channel + 1][lane] = -z.im;
+                    }
+                }
+                if south == north {
+                    continue;
+                }
+                reader.load(texels, width, south, channel, weights[south]);
+                for (m, sum) in sums.iter_mut().enumerate() {
+                    let z = reader.bin(m) * phases[m];
+                    for (parity, sign) in [(0, 1.0), (1, -1.0)] {
+                        sum[parity][2 * channel][lane] += sign * z.re;
+                        sum[parity][2 * channel + 1][lane] -= sign * z.im;
+                    }
+                }
+            }
+        }
+    });
+    sums
+}
+
+/// The FFT of one channel of one row.
+struct RowReader {
+    fft: Arc<dyn RealToComplex<f64>>,
+    input: Vec<f64>,
+    bins: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+}
+
+impl RowReader {
+    fn new(fft: &Arc<dyn RealToComplex<f64>>, width: usize) -> Self {
+        Self {
+            fft: Arc::clone(fft),
+            input: vec![0.0; width],
+            bins: fft.make_output_vec(),
+            scratch: fft.make_scratch_vec(),
+        }
+    }
+
+    fn load<T: Sample>(&mut self, texels: &[[T; 3]], width: usize, row: usize, channel: usize, weight: f64) {
+        for (value, texel) in self.input.iter_mut().zip(&texels[row * width..(row + 1) * width]) {
+            *value = weight * texel[channel].widen();
+        }
+        let done = self.fft.process_with_scratch(&mut self.input, &mut self.bins, &mut self.scratch);
+        debug_assert!(done.is_ok(), "the buffers have the plan's own lengths");
+    }
+
+    /// `Σ x_i e^(-2πi m i / W)` for any m: the bins repeat with period W and are conjugate about W/2.
+    fn bin(&self, m: usize) -> Complex<f64> {
+        let width = self.input.len();
+        let k = m % width;
+        if k <= width / 2 { self.bins[k] } else { self.bins[width - k].conj() }
+    }
+}
+
+/// Step two: coefficients of order m: the sums of P(l, m) over the rows, two degrees at a time.
+///
+/// One pass over the tiles serves l (even part) and l + 1 (odd part), so that the state of the recurrence is loaded
+/// and stored once for 16 fused multiply-adds.
+#[simd]
+fn legendre_sums<S: Simd>(
+    simd: S,
+    table: &LegendreTable,
+    m: usize,
+    band: usize,
+    rows: &Rows,
+    sums: &[TileSums],
+) -> Vec<[f64; PARTS]> {
+    let first = rows.first_tile(band, m);
+    let tiles: Vec<TileSums> = (first..rows.tile_count()).map(|t| sums[t * band + m]).collect();
+    let x = &rows.cos[first * TILE..];
+    let mut p = seed_column(table, m, &rows.sin[first * TILE..]);
+    let mut below = vec![0.0; p.len()];
+    let steps = table.steps(m);
+    // P(m+1) from P(m); the column ends at band - 1.
+    let step = |l: usize| steps.get(l - m - 1).copied().unwrap_or([0.0; 2]);
+    let mut column = vec![[0.0; PARTS]; band - m];
+    for l in (m..band).step_by(2) {
+        let (up, next) = (step(l + 1), step(l + 2));
+        let [even, odd] = two_degrees(simd, &tiles, x, &mut p, &mut below, up, next);
+        column[l - m] = even;
+        if let Some(c) = column.get_mut(l + 1 - m) {
+            *c = odd;
+        }
+    }
+    column
+}
+
+/// P(m, m) = s_m sin^m θ down the rows.
+fn seed_column(table: &LegendreTable, m: usize, sin: &[f64]) -> Vec<f64> {
+    sin.iter().map(|&s| if s > 0.0 { table.seed(m) * s.powi(m as i32) } else { 0.0 }).collect()
+}
+
+/// Sums of P(l) with the even and of P(l+1) with the odd parts; leaves P(l+2) in `p` and P(l+1) in `below`.
+#[simd]
+fn two_degrees<S: Simd>(
+    simd: S,
+    tiles: &[TileSums],
+    x: &[f64],
+    p: &mut [f64],
+    below: &mut [f64],
+    up: [f64; 2],
+    next: [f64; 2],
+) -> [[f64; PARTS]; 2] {
+    let n = S::f64s::LEN;
+    let zero = S::f64s::splat(simd, 0.0);
+    let [a1, b1] = up.map(|v| S::f64s::splat(simd, v));
+    let [a2, b2] = next.map(|v| S::f64s::splat(simd, v));
+    let mut even = [zero; PARTS];
+    let mut odd = [zero; PARTS];
+    for (t, tile) in tiles.iter().enumerate() {
+        for lane in (0..TILE).step_by(n) {
+            let at = t * TILE + lane..t * TILE + lane + n;
+            let x = S::f64s::from_slice(simd, &x[at.clone()]);
+            let p0 = S::f64s::from_slice(simd, &p[at.clone()]);
+            let minus = S::f64s::from_slice(simd, &below[at.clone()]);
+            let p1 = (x * a1).mul_sub(p0, b1 * minus);
+            let p2 = (x * a2).mul_sub(p1, b2 * p0);
+            p1.store_slice(&mut below[at.clone()]);
+            p2.store_slice(&mut p[at]);
+            for part in 0..PARTS {
+                let e = S::f64s::from_slice(simd, &tile[0][part][lane..lane + n]);
+                let o = S::f64s::from_slice(simd, &tile[1][part][lane..lane + n]);
+                even[part] = p0.mul_add(e, even[part]);
+                odd[part] = p1.mul_add(o, odd[part]);
+            }
+        }
+    }
+    [even.map(|v| v.reduce_sum()), odd.map(|v| v.reduce_sum())]
+}
+
+/// The inverse of step two for one tile: `Σ_l a_lm P(l, m)`, even and odd l + m apart, in registers all the way.
+#[simd]
+fn column_sums<S: Simd>(
+    simd: S,
+    table: &LegendreTable,
+    m: usize,
+    column: &[[f64; PARTS]],
+    rows: &Rows,
+    tile: usize,
+) -> TileSums {
+    let n = S::f64s::LEN;
+    let mut sums = [[[0.0; TILE]; PARTS]; 2];
+    let seeds = seed_column(table, m, &rows.sin[tile * TILE..(tile + 1) * TILE]);
+    let steps = &table.steps(m)[..column.len() - 1];
+    let zero = S::f64s::splat(simd, 0.0);
+    for lane in (0..TILE).step_by(n) {
+        let x = S::f64s::from_slice(simd, &rows.cos[tile * TILE + lane..tile * TILE + lane + n]);
+        let mut p = S::f64s::from_slice(simd, &seeds[lane..lane + n]);
+        let mut below = zero;
+        let mut even = [zero; PARTS];
+        let mut odd = [zero; PARTS];
+        for part in 0..PARTS {
+            even[part] = p * column[0][part];
+        }
+        for (pair, step) in column[1..].chunks(2).zip(steps.chunks(2)) {
+            // One fused multiply-add of latency a degree: the products off the chain are formed beforehand.
+            let p1 = (x * step[0][0]).mul_sub(p, below * step[0][1]);
+            for part in 0..PARTS {
+                odd[part] = p1.mul_add(S::f64s::splat(simd, pair[0][part]), odd[part]);
+            }
+            if pair.len() == 2 {
+                let p2 = (x * step[1][0]).mul_sub(p1, p * step[1][1]);
+                for part in 0..PARTS {
+                    even[part] = p2.mul_add(S::f64s::splat(simd, pair[1][part]), even[part]);
+                }
+                p = p2;
+            }
+            below = p1;
+        }
+        for part in 0..PARTS {
+            even[part].store_slice(&mut sums[0][part][lane..lane + n]);
+            odd[part].store_slice(&mut sums[1][part][lane..lane + n]);
+        }
+    }
+    sums
+}
+
+/// Gathers the orders of one tile of rows and turns them into texels.
+struct RowWriter {
+    fft: Arc<dyn ComplexToReal<f64>>,
+    width: usize,
+    phases: Vec<Complex<f64>>,
+    /// `[hemisphere][row][channel][bin]`.
+    bins: Vec<Complex<f64>>,
+    output: Vec<f64>,
+    scratch: Vec<Complex<f64>>,
+}
+
+impl RowWriter {
+    fn new(fft: &Arc<dyn ComplexToReal<f64>>, width: usize, band: usize) -> Self {
+        Self {
+            fft: Arc::clone(fft),
+            width,
+            phases: (0..band).map(|m| phase(m, width).conj()).collect(),
+            bins: vec![Complex::default(); 2 * TILE * 3 * (width / 2 + 1)],
+            output: vec![0.0; width],
+            scratch: fft.make_scratch_vec(),
+        }
+    }
+
+    fn start(&mut self) {
+        self.bins.fill(Complex::default());
+    }
+
+    /// Adds `A cos mφ + B sin mφ = Re[(A - iB) e^(imφ)]` to both hemispheres.
+    fn add_order(&mut self, m: usize, sums: &TileSums) {
+        let (width, bin_count) = (self.width, self.width / 2 + 1);
+        let k = m % width;
+        let mirrored = k > width / 2;
+        let bin = if mirrored { width - k } else { k };
+        // A bin that is its own mirror image stands for the whole real wave, any other for half of it.
+        let own_mirror = bin == 0 || 2 * bin == width;
+        for (hemisphere, sign) in [(0, 1.0), (1, -1.0)] {
+            for row in 0..TILE {
+                for channel in 0..3 {
+                    let a = sums[0][2 * channel][row] + sign * sums[1][2 * channel][row];
+                    let b = sums[0][2 * channel + 1][row] + sign * sums[1][2 * channel + 1][row];
+                    let z = Complex::new(a, -b) * self.phases[m];
+                    let z = if mirrored { z.conj() } else { z };
+                    let target = &mut self.bins[((hemisphere * TILE + row) * 3 + channel) * bin_count + bin];
+                    *target += if own_mirror { Complex::new(z.re, 0.0) } else { 0.5 * z };
+                }
+            }
+        }
+    }
+
+    /// Inverse FFT of every row into the northern rows and their mirrors.
+    fn write<T: Sample>(&mut self, north: &mut [[T; 3]], south: &mut [&mut [[T; 3]]]) {
+        for (row, texels) in north.chunks_mut(self.width).enumerate() {
+            self.write_row(row, texels);
+        }
+        for (row, texels) in south.iter_mut().enumerate() {
+            if !texels.is_empty() {
+                self.write_row(TILE + row, texels);
+            }
+        }
+    }
+
+    fn write_row<T: Sample>(&mut self, row: usize, texels: &mut [[T; 3]]) {
+        let bin_count = self.width / 2 + 1;
+        for channel in 0..3 {
+            let start = (row * 3 + channel) * bin_count;
+            let bins = &mut self.bins[start..start + bin_count];
+            let done = self.fft.process_with_scratch(bins, &mut self.output, &mut self.scratch);
+            debug_assert!(done.is_ok(), "lengths are the plan's own and the end bins are real");
+            for (texel, value) in texels.iter_mut().zip(&self.output) {
+                texel[channel] = T::narrow(*value);
+            }
+        }
+    }
+}
