@@ -17,6 +17,7 @@ pub(crate) const REC709: Chromaticities =
     Chromaticities { red: [0.64, 0.33], green: [0.30, 0.60], blue: [0.15, 0.06], white: [0.3127, 0.3290] };
 
 /// The equal-energy white, x = y = 1/3.
+#[cfg_attr(not(feature = "hdr"), allow(dead_code))]
 pub(crate) const EQUAL_ENERGY: [f64; 2] = [1.0 / 3.0, 1.0 / 3.0];
 
 /// The cone responses of the linear Bradford adaptation (Lam 1985; in ICC.1:2022, annex E).

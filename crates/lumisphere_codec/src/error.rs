@@ -115,6 +115,8 @@ pub enum CodecError {
     },
 }
 
+// Each format uses some of these.
+#[cfg_attr(not(all(feature = "hdr", feature = "exr", feature = "png", feature = "ktx2")), allow(dead_code))]
 impl CodecError {
     pub(crate) fn invalid(
         format: FileFormat,
@@ -129,7 +131,6 @@ impl CodecError {
         Self::Unsupported { format, what: what.into(), expected: expected.into() }
     }
 
-    #[cfg_attr(not(any(feature = "exr", feature = "png", feature = "ktx2")), allow(dead_code))]
     pub(crate) fn damaged(format: FileFormat, what: impl Into<String>, error: impl fmt::Display) -> Self {
         Self::Damaged { format, what: what.into(), message: error.to_string() }
     }

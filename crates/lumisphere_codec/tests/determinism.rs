@@ -8,7 +8,7 @@ use lumisphere_codec::{Limits, decode_picture, hdr, png};
 fn everything() -> Vec<Vec<u8>> {
     // Larger than one task of any writer.
     let texels: Vec<[f32; 3]> = (0..6 * 96 * 96)
-        .map(|i: u32| [1, 7, 31].map(|k| (i.wrapping_mul(k * 2_654_435_761) >> 12) as f32 / 1e3))
+        .map(|i: u32| [1, 7, 31].map(|k| (i.wrapping_mul(k).wrapping_mul(2_654_435_761) >> 12) as f32 / 1e3))
         .collect();
     let texture = Texture { width: 96, height: 96, faces: Faces::Cube, levels: vec![LevelTexels::Rgb(&texels)] };
     let mut files = vec![

@@ -49,18 +49,18 @@ fn header_and_descriptor_equal_those_of_ktx_software() {
 }
 
 #[test]
-fn the_ibl_sampler_leaves_the_colour_model_out() {
-    let Some(data) = common::data("the_ibl_sampler_leaves_the_colour_model_out") else { return };
+fn the_ibl_sampler_leaves_the_primaries_out() {
+    let Some(data) = common::data("the_ibl_sampler_leaves_the_primaries_out") else { return };
     let file = std::fs::read(data.join("baked/A_pisa_ktx2_gltfIBLSampler/pisa_diffuse_rgb9e5_zstd.ktx2")).unwrap();
     let texture = decode(&file, &Limits::default()).unwrap();
     assert_eq!((texture.width, texture.format, texture.levels.len()), (32, TexelFormat::Rgb9e5, 1));
     assert!(texture.levels[0].iter().flatten().all(|v| v.is_finite() && *v > 0.0));
-    // Its model is 0 (unspecified) where the specification, KTX-Software and we have 1 (RGBSDA). Nothing else differs.
+    // Its primaries are 0 (unspecified) where KTX-Software and we have 1 (BT.709). Nothing else differs.
     let ours = rewritten(&texture, Supercompression::Zstd(3));
     let differing: Vec<(usize, u8, u8)> = (0..)
         .zip(descriptor(&ours).iter().zip(descriptor(&file)))
         .filter(|(_, (a, b))| a != b)
         .map(|(i, (a, b))| (i, *a, *b))
         .collect();
-    assert_eq!(differing, [(12, 1, 0)]);
+    assert_eq!(differing, [(13, 1, 0)]);
 }

@@ -9,7 +9,7 @@
 //! primaries differ slightly; hardly any file means them). `PRIMARIES` and `GAMMA` are noted and not applied.
 //!
 //! `32-bit_rle_xyze` holds CIE XYZ. Radiance uses an equal-energy white: XYZ = (1, 1, 1) is what it shows as
-//! RGB = (1, 1, 1) (Radiance file formats, 1997, "pictures"). So that a white stays white here too, XYZ is adapted from
+//! RGB = (1, 1, 1) (Ward, "Radiance File Formats", picture files). So that a white stays white here too, XYZ is adapted from
 //! x = y = 1/3 to D65 by linear Bradford before the Rec.709 matrix.
 
 mod header;

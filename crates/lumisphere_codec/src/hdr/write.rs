@@ -76,10 +76,17 @@ pub(super) fn rgbe(texel: Rgb) -> ([u8; 4], usize) {
         return ([0; 4], clamped); // zero or a subnormal float
     }
     // Mantissa 255.5 or more rounds to 256: take the next exponent, where it is 128.
-    let carry = i32::from((f64::from(largest) * step_inverse(exponent)).round_ties_even() > 255.0);
+    let carry = i32::from(nearest(f64::from(largest) * step_inverse(exponent)) > 255);
     let scale = step_inverse(exponent + carry);
-    let mantissa = rgb.map(|v| (f64::from(v) * scale).round_ties_even() as u8);
+    let mantissa = rgb.map(|v| nearest(f64::from(v) * scale) as u8);
     ([mantissa[0], mantissa[1], mantissa[2], (exponent + carry + 128) as u8], clamped)
+}
+
+/// The whole number nearest to a mantissa, ties to even. Adding 2^52 leaves the sum no fraction bits, so the addition
+/// itself rounds; `round_ties_even` is a library call on machines without a rounding instruction.
+fn nearest(mantissa: f64) -> u64 {
+    const TWO_TO_52: f64 = 4_503_599_627_370_496.0;
+    (mantissa + TWO_TO_52).to_bits() - TWO_TO_52.to_bits()
 }
 
 /// 2^(8 - exponent), in f64 because the smallest exponents overflow f32.

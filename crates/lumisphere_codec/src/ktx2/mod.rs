@@ -3,8 +3,8 @@
 //! The layout follows the KTX 2.0 specification: header, level index, data format descriptor, key/value data, then the
 //! levels, smallest first. Cube faces are +X -X +Y -Y +Z -Z with the orientation of CONVENTIONS.md, which is KTX's own.
 //! Descriptors follow the Khronos Data Format Specification 1.3: model RGBSDA, primaries BT.709, linear transfer.
-//! A supercompressed file keeps `bytesPlane0`, as revision 2.0.4 of the KTX specification asks; revisions before it
-//! wanted 0 there, and readers use neither.
+//! A supercompressed file keeps `bytesPlane0`: KTX 2.0 first wanted 0 there, which KTX-Specification pull request 221
+//! removes and KTX-Software since 2025 warns of (its pull request 988).
 
 mod format;
 mod picture;

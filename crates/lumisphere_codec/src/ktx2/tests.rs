@@ -4,7 +4,7 @@ use super::*;
 use crate::Limits;
 use lumisphere_sphere::Projection;
 
-/// The descriptors, word by word (Khronos Data Format Specification 1.3, sections 5 and 10; `typeSize`: KTX 2.0, 3.2).
+/// The descriptors, word by word (Khronos Data Format Specification 1.3, basic descriptor block; `typeSize`: KTX 2.0).
 ///
 /// Word 0 total size; 1 vendor and type; 2 version 2 and block size; 3 model RGBSDA = 1, primaries BT709 = 1, transfer
 /// linear = 1, flags 0; 4 block of 1x1x1x1; 5 and 6 bytes per plane; then four words a sample: bit offset, bits - 1 and
@@ -23,7 +23,7 @@ fn expected(format: TexelFormat) -> (Vec<u32>, u32) {
         TexelFormat::Rgba16F => (channels(16, &[0, 1, 2, 15]), 8, 2),
         TexelFormat::Rg32F => (channels(32, &[0, 1]), 8, 4),
         TexelFormat::Rg16F => (channels(16, &[0, 1]), 4, 2),
-        // Mantissa of 9 bits whose 1.0 is 8448 = 256·33 in the specification's scale, exponent of 5 bits, bias 15.
+        // Mantissa of 9 bits with upper value 8448, exponent of 5 bits with bias 15 and upper value 31.
         TexelFormat::Rgb9e5 => (
             (0..3)
                 .flat_map(|c| {

@@ -36,6 +36,13 @@ pub struct Packed<W> {
 /// Inputs that one task packs.
 pub(crate) const CHUNK: usize = 8192;
 
+/// The whole number nearest to `value`, ties to even, for 0 to 2^22. Adding 2^23 leaves the sum no fraction bits, so the
+/// addition itself rounds; `round_ties_even` is a library call on machines without a rounding instruction.
+fn nearest(value: f32) -> u32 {
+    const TWO_TO_23: f32 = 8_388_608.0;
+    (value + TWO_TO_23).to_bits() - TWO_TO_23.to_bits()
+}
+
 /// Packs chunks in parallel; `pack` fills the words of one chunk and counts what it clamped.
 fn pack_chunks<T: Sync, W: Send + Copy + Default>(
     values: &[T],

@@ -3,7 +3,7 @@
 //! Each is a half float without sign whose mantissa is cut to 6 or 5 bits: exponent 5 bits, bias 15, with subnormals;
 //! red is in the lowest bits (OpenGL extension EXT_packed_float, 2004).
 
-use super::{Packed, pack_chunks};
+use super::{Packed, nearest, pack_chunks};
 
 /// The largest 11-bit float: (2 - 2^-6)·2^15.
 pub const MAX_11: f32 = 65024.0;
@@ -22,7 +22,7 @@ fn pack_component(value: f32, mantissa_bits: u32) -> u32 {
     if value < MIN_NORMAL {
         // Subnormal: a multiple of 2^-(14 + mantissa_bits). Rounding up to 2^mantissa_bits is the smallest normal.
         let steps = value * f32::from_bits((127 + 14 + mantissa_bits) << 23);
-        return steps.round_ties_even() as u32;
+        return nearest(steps);
     }
     let shift = 23 - mantissa_bits;
     // Bias 127 to bias 15, then round away the lower bits; a carry runs into the exponent, where it belongs.

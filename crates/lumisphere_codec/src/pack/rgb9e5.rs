@@ -2,7 +2,7 @@
 //!
 //! A component is m·2^(e - 15 - 9); red is in the lowest bits (OpenGL extension EXT_texture_shared_exponent, 2004).
 
-use super::{Packed, pack_chunks};
+use super::{Packed, nearest, pack_chunks};
 
 const MANTISSA_BITS: i32 = 9;
 const BIAS: i32 = 15;
@@ -30,9 +30,9 @@ pub fn pack_rgb9e5(rgb: [f32; 3]) -> u32 {
     let exponent = ((largest.to_bits() >> 23) as i32 - 126).max(-BIAS);
     let inverse_step = |exponent: i32| power(MANTISSA_BITS - exponent);
     // A mantissa that rounds up to 512 does not fit: take the next exponent, where it is 256.
-    let carry = i32::from((largest * inverse_step(exponent)).round_ties_even() >= 512.0);
+    let carry = i32::from(nearest(largest * inverse_step(exponent)) >= 512);
     let scale = inverse_step(exponent + carry);
-    let [r, g, b] = rgb.map(|v| (v * scale).round_ties_even() as u32);
+    let [r, g, b] = rgb.map(|v| nearest(v * scale));
     r | g << 9 | b << 18 | ((exponent + carry + BIAS) as u32) << 27
 }
 

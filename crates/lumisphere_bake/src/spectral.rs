@@ -1,0 +1,104 @@
+//! A level by convolution in spherical harmonics: `(L * K)_lm = k_l L_lm`, then back to directions.
+
+use crate::BakeError;
+use crate::interpolate::{self, LAGRANGE_ERROR, TAPS};
+use lumisphere_bsdf::Lobe;
+use lumisphere_sh::Spectrum;
+use lumisphere_sh::zonal::zonal_coefficients;
+use lumisphere_sphere::Vec3;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Bands of the transform: GGX falls off about as exp(-2αl), so 512 serve down to α = 0.015 under a bare sun.
+pub(crate) const BAND: usize = 512;
+/// Bands are dropped, and grids made coarser, where that changes the image of a point light by this much of its RMS.
+/// A fifth of the contract's 1e-4.
+const TOLERANCE: f64 = 2e-5;
+
+/// Zonal coefficients of a lobe, normalised to 1 at l = 0.
+pub(crate) struct ZonalKernel {
+    pub(crate) coefficients: Vec<f64>,
+    /// 2π ∫ K d cos θ.
+    pub(crate) integral: f64,
+}
+
+impl ZonalKernel {
+    pub(crate) fn of(lobe: &Lobe, band: usize) -> Result<Self, BakeError> {
+        let kernel = |s: f64| lobe.kernel_at_sin2_half(s);
+        let zonal = zonal_coefficients(band, &kernel, lobe.support_cos(), lobe.characteristic_angle())?;
+        Ok(Self { coefficients: zonal.coefficients, integral: zonal.integral })
+    }
+
+    /// The smallest band that keeps the image of a point light to [`TOLERANCE`], at most [`BAND`].
+    pub(crate) fn significant_band(&self) -> usize {
+        let energy = |l: usize| (2 * l + 1) as f64 * self.coefficients[l].powi(2);
+        let total: f64 = (0..self.coefficients.len()).map(energy).sum();
+        let mut dropped = 0.0;
+        for l in (0..self.coefficients.len()).rev() {
+            dropped += energy(l);
+            if dropped > TOLERANCE * TOLERANCE * total {
+                return (l + 1).min(BAND);
+            }
+        }
+        1
+    }
+
+    /// Whether the lobe is so narrow that the transform's band cuts it: its coefficients have not died down there.
+    /// (A wide lobe clamped at the horizon has a slow tail too, but the band has long caught its bulk.)
+    pub(crate) fn outruns_band(&self) -> bool {
+        self.coefficients.get(BAND).is_some_and(|k| k.abs() > SPLIT_COEFFICIENT)
+    }
+
+    /// Rows of a lat-long grid on which interpolation keeps the image of a point light to a tolerance.
+    fn grid_rows(&self, kernel: &[f64], tolerance: f64) -> usize {
+        let energy = |l: usize| (2 * l + 1) as f64 * kernel[l].powi(2);
+        let total: f64 = (0..kernel.len()).map(energy).sum();
+        let error = |rows: usize| {
+            let step = PI / rows as f64;
+            let lost = |l: usize| (LAGRANGE_ERROR * (l as f64 * step).powi(TAPS as i32)).min(1.0);
+            (0..kernel.len()).map(|l| energy(l) * lost(l).powi(2)).sum::<f64>().sqrt()
+        };
+        let fits = |rows: &usize| error(*rows) <= tolerance * total.sqrt();
+        (1..=MAX_GRID_ROWS / ROW_STEP).map(|k| k * ROW_STEP).find(fits).unwrap_or(MAX_GRID_ROWS)
+    }
+}
+
+/// |k_512| above which a lobe is split: exp(-2 · 0.0117 · 512), where the tail beyond begins to reach 1e-4 of the peak.
+const SPLIT_COEFFICIENT: f64 = 6e-6;
+/// Grid heights are multiples of this: row tiles fill up and row lengths suit the FFT.
+const ROW_STEP: usize = 64;
+const MAX_GRID_ROWS: usize = 2048;
+
+/// The environment's transform times `kernel[l]`, at `directions`.
+pub(crate) fn convolved_at(
+    spectrum: &Spectrum,
+    zonal: &ZonalKernel,
+    kernel: &[f64],
+    directions: &[Vec3],
+    latitude_count: usize,
+) -> Vec<[f64; 3]> {
+    // The image of the tolerance on the grid: the band already dropped as much.
+    let rows = zonal.grid_rows(kernel, TOLERANCE);
+    if latitude_count < rows / 2 {
+        return spectrum.evaluate(kernel, directions);
+    }
+    let width = 2 * rows;
+    let picture: Vec<[f32; 3]> = spectrum.synthesise(kernel, width, rows);
+    directions.par_iter().map(|&d| interpolate::read(&picture, width, d)).collect()
+}
+
+/// Levels of lobes that the band holds: the weighted mean over texels, exact up to the band.
+pub(crate) fn level(
+    spectrum: &Spectrum,
+    zonal: &ZonalKernel,
+    directions: &[Vec3],
+    latitude_count: usize,
+) -> Vec<[f32; 3]> {
+    let kernel = &zonal.coefficients[..zonal.significant_band().min(spectrum.band())];
+    let sums = convolved_at(spectrum, zonal, kernel, directions, latitude_count);
+    let mean = |(sum, d): (&[f64; 3], &Vec3)| {
+        let unit = spectrum.unit_response(kernel, d[1]);
+        sum.map(|s| (s / unit).max(0.0) as f32)
+    };
+    sums.par_iter().zip(directions).map(mean).collect()
+}
