@@ -47,9 +47,7 @@ fn reflect(row: i64, height: usize) -> (usize, bool) {
 /// Lagrange weights at fraction t in [0, 1) between the two middle taps.
 fn weights(t: f64) -> [f64; TAPS] {
     let node = |k: usize| k as f64 - (TAPS as f64 / 2.0 - 1.0);
-    std::array::from_fn(|k| {
-        (0..TAPS).filter(|&j| j != k).map(|j| (t - node(j)) / (node(k) - node(j))).product()
-    })
+    std::array::from_fn(|k| (0..TAPS).filter(|&j| j != k).map(|j| (t - node(j)) / (node(k) - node(j))).product())
 }
 
 #[cfg(test)]

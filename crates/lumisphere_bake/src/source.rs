@@ -39,7 +39,8 @@ pub fn panorama(environment: Environment) -> Result<Environment, BakeError> {
 /// # Errors
 /// None but those of impossible sizes.
 pub fn refined(panorama: Environment, settings: &BakeSettings) -> Result<Environment, BakeError> {
-    let sharpest = settings.roughness().into_iter().map(|p| p.to_alpha().value()).filter(|a| *a > 0.0).fold(1.0, f64::min);
+    let sharpest =
+        settings.roughness().into_iter().map(|p| p.to_alpha().value()).filter(|a| *a > 0.0).fold(1.0, f64::min);
     let (width, height) = (panorama.grid().width(), panorama.grid().height());
     let wanted = (PI / (TEXELS_PER_ALPHA * sharpest * height as f64)).ceil() as usize;
     let k = wanted.min(MAX_REFINED_ROWS / height).max(1);

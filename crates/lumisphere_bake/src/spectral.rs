@@ -1,6 +1,7 @@
 //! A level by convolution in spherical harmonics: `(L * K)_lm = k_l L_lm`, then back to directions.
 
 use crate::BakeError;
+use crate::cube_directions::CubeDirections;
 use crate::interpolate::{self, LAGRANGE_ERROR, TAPS};
 use lumisphere_bsdf::Lobe;
 use lumisphere_sh::Spectrum;
@@ -74,31 +75,25 @@ pub(crate) fn convolved_at(
     spectrum: &Spectrum,
     zonal: &ZonalKernel,
     kernel: &[f64],
-    directions: &[Vec3],
-    latitude_count: usize,
+    directions: &CubeDirections,
 ) -> Vec<[f64; 3]> {
     // The image of the tolerance on the grid: the band already dropped as much.
     let rows = zonal.grid_rows(kernel, TOLERANCE);
-    if latitude_count < rows / 2 {
-        return spectrum.evaluate(kernel, directions);
+    if directions.latitude_count < rows / 2 {
+        return spectrum.evaluate(kernel, &directions.directions);
     }
     let width = 2 * rows;
     let picture: Vec<[f32; 3]> = spectrum.synthesise(kernel, width, rows);
-    directions.par_iter().map(|&d| interpolate::read(&picture, width, d)).collect()
+    directions.directions.par_iter().map(|&d| interpolate::read(&picture, width, d)).collect()
 }
 
 /// Levels of lobes that the band holds: the weighted mean over texels, exact up to the band.
-pub(crate) fn level(
-    spectrum: &Spectrum,
-    zonal: &ZonalKernel,
-    directions: &[Vec3],
-    latitude_count: usize,
-) -> Vec<[f32; 3]> {
+pub(crate) fn level(spectrum: &Spectrum, zonal: &ZonalKernel, directions: &CubeDirections) -> Vec<[f32; 3]> {
     let kernel = &zonal.coefficients[..zonal.significant_band().min(spectrum.band())];
-    let sums = convolved_at(spectrum, zonal, kernel, directions, latitude_count);
+    let sums = convolved_at(spectrum, zonal, kernel, directions);
     let mean = |(sum, d): (&[f64; 3], &Vec3)| {
         let unit = spectrum.unit_response(kernel, d[1]);
         sum.map(|s| (s / unit).max(0.0) as f32)
     };
-    sums.par_iter().zip(directions).map(mean).collect()
+    sums.par_iter().zip(&directions.directions).map(mean).collect()
 }

@@ -1,0 +1,247 @@
+//! Lobes too narrow for the transform's band: `level = spectral(L_low) + Σ K Ω L_high` over the lobe's near part.
+//!
+//! L_low is the environment's bands with the upper half of them faded out by a raised cosine, L_high the rest. What the
+//! lobe does far from its peak is smooth: its own bands lie below the fade, so it meets L_low only. The sum runs to the
+//! radius where that holds and fades out itself. A hard edge instead of the fade leaves 1e-3 of a sun's
+//! peak on a ring of that radius.
+
+use crate::cube_directions::CubeDirections;
+use crate::spectral::{self, ZonalKernel};
+use fearless_simd::{Level, dispatch, prelude::*};
+use fearless_simd_macros::simd;
+use lumisphere_bsdf::Lobe;
+use lumisphere_image::{Environment, Rgb};
+use lumisphere_sh::Spectrum;
+use lumisphere_sphere::{Vec3, latlong};
+use rayon::prelude::*;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Radius of the sum, in wavelengths over 2π of the band where L_high begins. The fade of half that width then has few
+/// bands beyond it.
+const REACH: f64 = 20.0;
+/// Degree of the radial fit; GGX needs 8, exp(-tan²) more.
+const RADIAL_DEGREE: usize = 24;
+
+/// The environment without its low bands.
+pub(crate) struct HighPart {
+    width: usize,
+    height: usize,
+    /// Rows of all red, all green, all blue samples.
+    planes: Vec<f32>,
+    /// The same of a picture of ones: one value a row.
+    ones: Vec<f32>,
+    /// Weight of each band in L_low.
+    fade: Vec<f64>,
+    radius: f64,
+}
+
+impl HighPart {
+    /// Takes the low bands out of the source, in its own memory.
+    pub(crate) fn new(source: Environment, spectrum: &Spectrum) -> Self {
+        let (width, height) = (source.grid().width(), source.grid().height());
+        let band = spectrum.band();
+        let fade: Vec<f64> = (0..band).map(|l| raised_cosine((2 * l) as f64 / band as f64 - 1.0)).collect();
+        let low: Vec<Rgb> = spectrum.synthesise(&fade, width, height);
+        let mut planes = source.into_texels().into_flattened();
+        planes.par_chunks_mut(3 * width).zip(low.par_chunks(width)).for_each(|(row, low)| {
+            let high: Vec<f32> =
+                (0..3).flat_map(|c| (0..width).map(move |x| (x, c))).map(|(x, c)| row[3 * x + c] - low[x][c]).collect();
+            row.copy_from_slice(&high);
+        });
+        let one = |y: usize| 1.0 - spectrum.unit_response(&fade, (PI * (y as f64 + 0.5) / height as f64).cos()) as f32;
+        let ones = (0..height).map(one).collect();
+        Self { width, height, planes, ones, fade, radius: REACH / (0.5 * band as f64) }
+    }
+
+    /// A level: the weighted mean over texels about each direction.
+    pub(crate) fn level(
+        &self,
+        spectrum: &Spectrum,
+        lobe: &Lobe,
+        zonal: &ZonalKernel,
+        directions: &CubeDirections,
+    ) -> Vec<Rgb> {
+        let kernel: Vec<f64> = self.fade.iter().zip(&zonal.coefficients).map(|(f, k)| f * k).collect();
+        let low = spectral::convolved_at(spectrum, zonal, &kernel, directions);
+        let radial = Radial::of(lobe, zonal.integral, self.radius);
+        let texel = |(low, &d): (&[f64; 3], &Vec3)| {
+            let [r, g, b, one] = self.near_sum(&radial, d);
+            let total = spectrum.unit_response(&kernel, d[1]) + one;
+            let mean = |low: f64, high: f64| ((low + high) / total).max(0.0) as f32;
+            [mean(low[0], r), mean(low[1], g), mean(low[2], b)]
+        };
+        low.par_iter().zip(&directions.directions).map(texel).collect()
+    }
+
+    /// Σ K Ω of the three channels and of ones over the texels within the radius.
+    fn near_sum(&self, radial: &Radial, direction: Vec3) -> [f64; 4] {
+        let (u, v) = latlong::uv(direction);
+        let (theta, sin_theta) = (PI * v, direction[0].hypot(direction[2]));
+        let step = PI / self.height as f64;
+        let first = ((theta - self.radius) / step - 0.5).ceil().max(0.0) as usize;
+        let last = (((theta + self.radius) / step - 0.5).floor() as usize).min(self.height - 1);
+        let mut sum = [0.0; 4];
+        for y in first..=last {
+            let row_theta = step * (y as f64 + 0.5);
+            let row = RowGeometry {
+                apart: (0.5 * (row_theta - theta)).sin().powi(2) as f32,
+                sines: (sin_theta * row_theta.sin()) as f32,
+                half_step: (0.5 * TAU / self.width as f64) as f32,
+            };
+            let reach = radial.far_s - (0.5 * (row_theta - theta)).sin().powi(2);
+            if reach <= 0.0 {
+                continue;
+            }
+            let ratio = reach / (sin_theta * row_theta.sin());
+            let half_angle = if ratio < 1.0 { ratio.sqrt().asin() } else { FRAC_PI_2 };
+            let part = self.row_sum(radial, &row, y, u * self.width as f64, half_angle);
+            let omega = latlong::texel_solid_angle(self.width, self.height, y);
+            for c in 0..3 {
+                sum[c] += omega * part[c];
+            }
+            sum[3] += omega * f64::from(self.ones[y]) * part[3];
+        }
+        sum
+    }
+
+    /// One row: the columns within 2 `half_angle` of column coordinate `x`, in up to two runs about the seam.
+    fn row_sum(&self, radial: &Radial, row: &RowGeometry, y: usize, x: f64, half_angle: f64) -> [f64; 4] {
+        let width = self.width as i64;
+        let reach = half_angle * self.width as f64 / PI;
+        let first = (x - reach - 0.5).ceil() as i64;
+        let count = ((x + reach - 0.5).floor() as i64 + 1 - first).min(width);
+        let start = first.rem_euclid(width);
+        let head = count.min(width - start).max(0);
+        let mut sum = [0.0; 4];
+        for (from, to, offset) in [(start, start + head, first), (0, count - head, first + head)] {
+            if to <= from {
+                continue;
+            }
+            let planes = &self.planes[3 * y * self.width..3 * (y + 1) * self.width];
+            let run = |c: usize| &planes[c * self.width..][from as usize..to as usize];
+            let lead = (offset as f64 + 0.5 - x) as f32;
+            let level = Level::new();
+            let part = dispatch!(level, simd => run_sum(simd, radial, row, lead, [run(0), run(1), run(2)]));
+            for c in 0..4 {
+                sum[c] += f64::from(part[c]);
+            }
+        }
+        sum
+    }
+}
+
+/// 1 for t ≤ 0, 0 for t ≥ 1, half a cosine wave between.
+fn raised_cosine(t: f64) -> f64 {
+    0.5 + 0.5 * (PI * t.clamp(0.0, 1.0)).cos()
+}
+
+/// `sin²(γ/2) = apart + sines sin²(Δφ/2)` along a row.
+struct RowGeometry {
+    apart: f32,
+    sines: f32,
+    /// Half the angle between columns.
+    half_step: f32,
+}
+
+/// The normalised lobe near its peak as a polynomial in q = s/(s + s₀), s = sin²(γ/2), times the fade of the sum.
+struct Radial {
+    scale_s: f32,
+    /// q maps to t = q · stretch - 1 in [-1, 1].
+    stretch: f32,
+    chebyshev: Vec<f32>,
+    /// The fade runs from near to far.
+    near_s: f32,
+    per_fade: f32,
+    far_s: f64,
+}
+
+impl Radial {
+    fn of(lobe: &Lobe, integral: f64, radius: f64) -> Self {
+        let s_of = |angle: f64| (0.5 * angle).sin().powi(2);
+        let (near_s, far_s) = (s_of(0.5 * radius), s_of(radius));
+        let scale_s = s_of(lobe.characteristic_angle());
+        let far_q = far_s / (far_s + scale_s);
+        let value = |t: f64| {
+            let q = 0.5 * far_q * (t + 1.0);
+            lobe.kernel_at_sin2_half(scale_s * q / (1.0 - q)) / integral
+        };
+        Self {
+            scale_s: scale_s as f32,
+            stretch: (2.0 / far_q) as f32,
+            chebyshev: chebyshev(value, RADIAL_DEGREE),
+            near_s: near_s as f32,
+            per_fade: (1.0 / (far_s - near_s)) as f32,
+            far_s,
+        }
+    }
+}
+
+/// Chebyshev coefficients of f on [-1, 1], trailing ones below f32's resolution dropped.
+fn chebyshev(f: impl Fn(f64) -> f64, degree: usize) -> Vec<f32> {
+    let n = degree + 1;
+    let node = |j: usize| PI * (j as f64 + 0.5) / n as f64;
+    let samples: Vec<f64> = (0..n).map(|j| f(node(j).cos())).collect();
+    let coefficient = |k: usize| {
+        let sum: f64 = (0..n).map(|j| samples[j] * (k as f64 * node(j)).cos()).sum();
+        sum * if k == 0 { 1.0 } else { 2.0 } / n as f64
+    };
+    let coefficients: Vec<f64> = (0..n).map(coefficient).collect();
+    let peak = samples.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    let used = coefficients.iter().rposition(|c| c.abs() > 1e-8 * peak).map_or(1, |i| i + 1);
+    coefficients[..used].iter().map(|&c| c as f32).collect()
+}
+
+/// Σ K over a run of texels, of three channels and of ones; `lead` is the first column's distance from the direction.
+#[simd]
+fn run_sum<S: Simd>(simd: S, radial: &Radial, row: &RowGeometry, lead: f32, runs: [&[f32]; 3]) -> [f32; 4] {
+    let n = S::f32s::LEN;
+    let count = runs[0].len();
+    let mut sums = [S::f32s::splat(simd, 0.0); 4];
+    let mut columns = S::f32s::from_fn(simd, |i| lead + i as f32);
+    let whole = count - count % n;
+    for at in (0..whole).step_by(n) {
+        let k = near_lobe(simd, radial, row, columns);
+        for c in 0..3 {
+            sums[c] = k.mul_add(S::f32s::from_slice(simd, &runs[c][at..at + n]), sums[c]);
+        }
+        sums[3] = sums[3] + k;
+        columns = columns + n as f32;
+    }
+    if whole < count {
+        let k = near_lobe(simd, radial, row, columns);
+        let rest = |run: &[f32], i: usize| run.get(whole + i).copied().unwrap_or(0.0);
+        for c in 0..3 {
+            sums[c] = k.mul_add(S::f32s::from_fn(simd, |i| rest(runs[c], i)), sums[c]);
+        }
+        sums[3] = sums[3] + k * S::f32s::from_fn(simd, |i| if whole + i < count { 1.0 } else { 0.0 });
+    }
+    sums.map(|v| v.reduce_sum())
+}
+
+/// The faded lobe at column distances from the direction.
+#[simd]
+fn near_lobe<S: Simd>(simd: S, radial: &Radial, row: &RowGeometry, columns: S::f32s) -> S::f32s {
+    let half = columns * row.half_step;
+    let x2 = half * half;
+    // sin on [-π/2, π/2] by its Taylor series to x¹¹: 6e-8 at the ends.
+    let mut sine = S::f32s::splat(simd, -1.0 / 39_916_800.0);
+    for c in [1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0] {
+        sine = sine.mul_add(x2, S::f32s::splat(simd, c));
+    }
+    let sine = sine * half;
+    let s = (sine * sine).mul_add(S::f32s::splat(simd, row.sines), S::f32s::splat(simd, row.apart));
+    let q = s / (s + radial.scale_s);
+    let t = q * radial.stretch - 1.0;
+    // Clenshaw's recurrence.
+    let twice = t + t;
+    let zero = S::f32s::splat(simd, 0.0);
+    let (mut b1, mut b2) = (zero, zero);
+    for &c in radial.chebyshev[1..].iter().rev() {
+        (b1, b2) = (twice.mul_add(b1, S::f32s::splat(simd, c) - b2), b1);
+    }
+    let value = t.mul_add(b1, S::f32s::splat(simd, radial.chebyshev[0]) - b2);
+    let f = ((s - radial.near_s) * radial.per_fade).max(zero).min(S::f32s::splat(simd, 1.0));
+    // The fade 1 - f³ (10 - 15 f + 6 f²) has two continuous derivatives.
+    let blend = f.mul_add(f * 6.0 - 15.0, S::f32s::splat(simd, 10.0)) * (f * f * f);
+    value * (S::f32s::splat(simd, 1.0) - blend)
+}
