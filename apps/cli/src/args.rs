@@ -36,7 +36,8 @@ pub enum Command {
 }
 
 const ENV_HELP: &str = "A .hdr, .exr, .png or .ktx2 file, or a built-in environment";
-const ENV_LONG_HELP: &str = "A .hdr, .exr, .png or .ktx2 file, or a built-in environment: builtin:studio, builtin:sky, \
+const ENV_LONG_HELP: &str =
+    "A .hdr, .exr, .png or .ktx2 file, or a built-in environment: builtin:studio, builtin:sky, \
 builtin:furnace, builtin:axes or builtin:one-texel.
 
 All of them take the number of rows, builtin:studio?height=1024. The sky also takes turbidity (2 to 10), elevation and \

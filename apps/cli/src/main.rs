@@ -1,1 +1,94 @@
-fn main() {}
+//! The `lumisphere` command: bakes, inspects and verifies image-based lighting.
+
+mod args;
+mod bake_command;
+mod builtin_source;
+mod choices;
+mod encode;
+mod environment_input;
+mod files;
+mod inspect_command;
+mod inspect_report;
+mod output;
+mod preview;
+mod progress;
+mod record;
+mod sh_file;
+mod summary;
+mod timings;
+mod values;
+mod verify_command;
+mod verify_report;
+
+use anyhow::{Context, Result, anyhow};
+use args::{Cli, Command};
+use clap::{CommandFactory, Parser};
+use std::process::ExitCode;
+
+/// `verify` found an error over the contract.
+const OVER_CONTRACT: u8 = 1;
+/// Anything that went wrong, as with clap's own errors.
+const FAILED: u8 = 2;
+
+fn main() -> ExitCode {
+    match run(Cli::parse().command) {
+        Ok(code) => code,
+        Err(error) => {
+            output::error(&error);
+            ExitCode::from(FAILED)
+        }
+    }
+}
+
+fn run(command: Command) -> Result<ExitCode> {
+    match command {
+        Command::Bake(args) => {
+            set_threads(args.common.threads)?;
+            bake_command::run(&args)?;
+        }
+        Command::Inspect(args) => {
+            set_threads(args.common.threads)?;
+            inspect_command::run(&args)?;
+        }
+        Command::Verify(args) => {
+            set_threads(args.common.threads)?;
+            if !verify_command::run(&args)? {
+                return Ok(ExitCode::from(OVER_CONTRACT));
+            }
+        }
+        Command::Completions { shell } => {
+            let mut text = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "lumisphere", &mut text);
+            output::bytes(&text)?;
+        }
+        Command::Man { command } => output::bytes(&manual_page(command.as_deref())?)?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn set_threads(threads: Option<u16>) -> Result<()> {
+    let Some(threads) = threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global().context("--threads")
+}
+
+fn manual_page(command: Option<&str>) -> Result<Vec<u8>> {
+    let mut root = Cli::command();
+    root.build();
+    let page = match command {
+        None => root,
+        Some(name) => root.find_subcommand(name).cloned().ok_or_else(|| anyhow!("{name}: no such command"))?,
+    };
+    let mut text = Vec::new();
+    clap_mangen::Man::new(page).render(&mut text)?;
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_definition_of_the_command_line_is_sound() {
+        Cli::command().debug_assert();
+    }
+}

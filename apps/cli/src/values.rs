@@ -95,7 +95,8 @@ impl FromStr for YawPitchRoll {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let angles: Option<Vec<f64>> = text.split(',').map(|a| a.trim().parse().ok().filter(|a: &f64| a.is_finite())).collect();
+        let angles: Option<Vec<f64>> =
+            text.split(',').map(|a| a.trim().parse().ok().filter(|a: &f64| a.is_finite())).collect();
         match angles.as_deref() {
             Some(&[yaw]) => Ok(Self { yaw, pitch: 0.0, roll: 0.0 }),
             Some(&[yaw, pitch, roll]) => Ok(Self { yaw, pitch, roll }),

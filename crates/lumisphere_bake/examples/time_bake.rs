@@ -37,14 +37,9 @@ fn main() {
     println!("last {:?}; bake {:?}", last.lock().unwrap().0.elapsed(), start.elapsed());
     if let Some(n) = args.get(3) {
         let same = |t| t;
-        let report = verify(
-            &baked,
-            load(),
-            &settings,
-            &VerifySettings { texels: n.parse().unwrap(), quantise: &same },
-            &|_| (),
-        )
-        .unwrap();
+        let report =
+            verify(&baked, load(), &settings, &VerifySettings { texels: n.parse().unwrap(), quantise: &same }, &|_| ())
+                .unwrap();
         for l in report.levels.iter().chain(&report.irradiance) {
             println!(
                 "{} p {:.4} a {:.5} size {} rms {:.2e} worst {:.2e} energy {:+.2e} seam {:?} limit {:.0e} {}",

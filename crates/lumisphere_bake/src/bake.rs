@@ -8,7 +8,7 @@ use crate::split::HighPart;
 use crate::{BakeError, BakeSettings, Engine, source};
 use lumisphere_bsdf::{Alpha, DfgTable, Lobe, LobeShape, LobeWeight, PerceptualRoughness};
 use lumisphere_image::{CubeChain, Environment, Rgb, resample};
-use lumisphere_sh::{RowWeights, ShRgb, ShRotation, Spectrum};
+use lumisphere_sh::{FourierRows, RowWeights, ShRgb, ShRotation, Spectrum};
 use lumisphere_sphere::{Grid, Projection};
 
 /// A prefiltered chain with the roughness of each level.
@@ -76,18 +76,25 @@ pub fn bake(
     settings.validate()?;
     progress(Step::Prepare);
     let panorama = source::panorama(environment)?;
-    let skybox = settings.outputs.skybox.then(|| skybox(&panorama, settings, progress)).transpose()?;
-    let mirror =
-        settings.outputs.specular.then(|| mirror(&panorama, skybox.as_ref(), settings, progress)).transpose()?;
+    let outputs = settings.outputs;
+    let mirror = outputs.specular.then(|| mirror(&panorama, settings, progress)).transpose()?;
+    let skybox = outputs.skybox.then(|| skybox(&panorama, mirror.as_ref(), settings, progress)).transpose()?;
     let source = source::refined(panorama, settings)?;
     progress(Step::Transform);
     let width = source.grid().width();
-    let spectrum = Spectrum::forward(source.texels(), width, BAND, RowWeights::TexelSolidAngle);
+    let rows = FourierRows::new(source.texels(), width, BAND, RowWeights::TexelSolidAngle);
+    let engine = LevelBaker::new(source, settings)?;
+    let spectrum = Spectrum::from_rows(rows);
     let sh = ShRotation::new(&settings.rotation, settings.sh_bands).apply(&spectrum.to_sh(settings.sh_bands));
-    let irradiance =
-        settings.outputs.irradiance.then(|| irradiance(&source, &spectrum, settings, progress)).transpose()?;
-    let specular = mirror.map(|mirror| specular(source, &spectrum, mirror, settings, progress)).transpose()?;
-    let dfg = settings.outputs.dfg.then(|| dfg(settings, progress)).transpose()?;
+    let mut baker = Levels { engine, spectrum: &spectrum };
+    let irradiance = outputs.irradiance.then(|| irradiance(&mut baker, settings, progress)).transpose()?;
+    let specular = mirror.map(|mirror| specular(&mut baker, mirror, settings, progress)).transpose()?;
+    let skybox = match (skybox, &specular) {
+        (Some(Skybox::LikeMirror), Some(chain)) => Some(chain.levels.levels()[0].clone()),
+        (Some(Skybox::Own(cube)), _) => Some(cube),
+        _ => None,
+    };
+    let dfg = outputs.dfg.then(|| dfg(settings, progress)).transpose()?;
     Ok(BakedEnvironment { sh, specular, irradiance, skybox, dfg })
 }
 
@@ -95,103 +102,117 @@ pub(crate) fn cube(size: usize) -> Result<Grid, BakeError> {
     Ok(Grid::new(Projection::Cube, size, size).map_err(lumisphere_image::ImageError::from)?)
 }
 
-fn skybox(panorama: &Environment, settings: &BakeSettings, progress: Progress) -> Result<Environment, BakeError> {
-    progress(Step::Skybox);
-    Ok(resample(panorama, cube(settings.skybox_size.unwrap_or(settings.size))?, &settings.rotation))
-}
-
-/// Level 0: the skybox where it has the chain's size.
-fn mirror(
-    panorama: &Environment,
-    skybox: Option<&Environment>,
-    settings: &BakeSettings,
-    progress: Progress,
-) -> Result<Environment, BakeError> {
-    if let Some(skybox) = skybox.filter(|s| s.grid().width() == settings.size) {
-        return Ok(skybox.clone());
-    }
+/// Level 0: the exact area resample.
+fn mirror(panorama: &Environment, settings: &BakeSettings, progress: Progress) -> Result<Environment, BakeError> {
     progress(Step::Level { lod: 0, of: settings.levels() });
     Ok(resample(panorama, cube(settings.size)?, &settings.rotation))
 }
 
-/// E = π times the weighted mean under the clamped cosine.
-fn irradiance(
-    source: &Environment,
-    spectrum: &Spectrum,
+enum Skybox {
+    /// Same size as level 0 of the chain: copied from there at the end, when memory is free again.
+    LikeMirror,
+    Own(Environment),
+}
+
+fn skybox(
+    panorama: &Environment,
+    mirror: Option<&Environment>,
     settings: &BakeSettings,
     progress: Progress,
-) -> Result<Environment, BakeError> {
+) -> Result<Skybox, BakeError> {
+    let size = settings.skybox_size.unwrap_or(settings.size);
+    if mirror.is_some_and(|m| m.grid().width() == size) {
+        return Ok(Skybox::LikeMirror);
+    }
+    progress(Step::Skybox);
+    Ok(Skybox::Own(resample(panorama, cube(size)?, &settings.rotation)))
+}
+
+/// E = π times the weighted mean under the clamped cosine.
+fn irradiance(levels: &mut Levels, settings: &BakeSettings, progress: Progress) -> Result<Environment, BakeError> {
     progress(Step::Irradiance);
     let cosine = Lobe::new(LobeShape::Cosine, LobeWeight::None, Alpha::clamped(1.0));
     let directions = CubeDirections::new(settings.irradiance_size, &settings.rotation);
-    let means = match settings.engine {
-        Engine::Spectral => spectral_level(spectrum, &cosine, &directions)?,
-        Engine::MonteCarlo => MonteCarlo::new(source, settings)?.level(&cosine, &directions),
-        Engine::Quadrature => TexelSum::new(source).level(&cosine, &directions),
-    };
     let pi = std::f32::consts::PI;
-    let texels = means.into_iter().map(|t| t.map(|v| v * pi)).collect();
+    let texels = levels.bake(&cosine, &directions)?.into_iter().map(|t| t.map(|v| v * pi)).collect();
     Ok(Environment::new(cube(settings.irradiance_size)?, texels)?)
-}
-
-fn spectral_level(spectrum: &Spectrum, lobe: &Lobe, directions: &CubeDirections) -> Result<Vec<Rgb>, BakeError> {
-    let zonal = ZonalKernel::of(lobe, 2 * BAND)?;
-    Ok(spectral::level(spectrum, &zonal, directions))
 }
 
 /// The chain behind its mirror level.
 fn specular(
-    source: Environment,
-    spectrum: &Spectrum,
+    baker: &mut Levels,
     mirror: Environment,
     settings: &BakeSettings,
     progress: Progress,
 ) -> Result<SpecularChain, BakeError> {
     let roughness = settings.roughness();
-    let mut baker = LevelBaker::new(source, spectrum, settings)?;
     let mut levels = vec![mirror];
     for (lod, &p) in roughness.iter().enumerate().skip(1) {
         progress(Step::Level { lod, of: roughness.len() });
         let size = (settings.size >> lod).max(1);
         let directions = CubeDirections::new(size, &settings.rotation);
-        let texels = baker.level(&settings.lobe_at(p), &directions)?;
+        let texels = baker.bake(&settings.lobe_at(p), &directions)?;
         levels.push(Environment::new(cube(size)?, texels)?);
     }
     Ok(SpecularChain { levels: CubeChain::new(levels)?, roughness })
 }
 
-/// What the chosen engine keeps from level to level.
-enum LevelBaker<'a> {
-    Spectral { spectrum: &'a Spectrum, source: Option<Environment>, high: Option<HighPart> },
+/// The chosen engine beside the environment's spectrum.
+struct Levels<'a> {
+    engine: LevelBaker,
+    spectrum: &'a Spectrum,
+}
+
+/// What an engine keeps from level to level.
+enum LevelBaker {
+    /// The source is kept only where a level will be split.
+    Spectral {
+        source: Option<Environment>,
+        high: Option<HighPart>,
+    },
     MonteCarlo(MonteCarlo),
     Quadrature(Environment),
 }
 
-impl<'a> LevelBaker<'a> {
-    fn new(source: Environment, spectrum: &'a Spectrum, settings: &BakeSettings) -> Result<Self, BakeError> {
+impl LevelBaker {
+    fn new(source: Environment, settings: &BakeSettings) -> Result<Self, BakeError> {
         Ok(match settings.engine {
-            Engine::Spectral => Self::Spectral { spectrum, source: Some(source), high: None },
+            Engine::Spectral => {
+                let splits = settings.outputs.specular && splits_a_level(settings)?;
+                Self::Spectral { source: splits.then_some(source), high: None }
+            }
             Engine::MonteCarlo => Self::MonteCarlo(MonteCarlo::new(&source, settings)?),
             Engine::Quadrature => Self::Quadrature(source),
         })
     }
+}
 
-    fn level(&mut self, lobe: &Lobe, directions: &CubeDirections) -> Result<Vec<Rgb>, BakeError> {
-        match self {
-            Self::Spectral { spectrum, source, high } => {
+fn splits_a_level(settings: &BakeSettings) -> Result<bool, BakeError> {
+    for p in settings.roughness().into_iter().skip(1) {
+        if ZonalKernel::of(&settings.lobe_at(p), 2 * BAND)?.outruns_band() {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+impl Levels<'_> {
+    fn bake(&mut self, lobe: &Lobe, directions: &CubeDirections) -> Result<Vec<Rgb>, BakeError> {
+        match &mut self.engine {
+            LevelBaker::Spectral { source, high } => {
                 let zonal = ZonalKernel::of(lobe, 2 * BAND)?;
                 if !zonal.outruns_band() {
-                    return Ok(spectral::level(spectrum, &zonal, directions));
+                    return Ok(spectral::level(self.spectrum, &zonal, directions));
                 }
-                // The source is not needed beside what is left of it without its low bands.
+                // The source gives its memory to what is left of it without its low bands.
                 if let Some(source) = source.take() {
-                    *high = Some(HighPart::new(source, spectrum));
+                    *high = Some(HighPart::new(source, self.spectrum));
                 }
-                let Some(high) = high else { unreachable!("made the first time a level is split") };
-                Ok(high.level(spectrum, lobe, &zonal, directions))
+                let Some(high) = high else { unreachable!("the source was kept for the levels that are split") };
+                Ok(high.level(self.spectrum, lobe, &zonal, directions))
             }
-            Self::MonteCarlo(engine) => Ok(engine.level(lobe, directions)),
-            Self::Quadrature(source) => Ok(TexelSum::new(source).level(lobe, directions)),
+            LevelBaker::MonteCarlo(engine) => Ok(engine.level(lobe, directions)),
+            LevelBaker::Quadrature(source) => Ok(TexelSum::new(source).level(lobe, directions)),
         }
     }
 }

@@ -4,7 +4,6 @@ use lumisphere_sphere::{Rotation, Vec3, cube};
 
 /// Texel centres of a cube, face by face, row by row, turned back into the source's frame.
 pub(crate) struct CubeDirections {
-    pub(crate) size: usize,
     pub(crate) directions: Vec<Vec3>,
     /// Distinct |latitudes| among them.
     pub(crate) latitude_count: usize,
@@ -23,6 +22,6 @@ impl CubeDirections {
         // Sides share (|sc|, |tc|), top and bottom the unordered pair; a turned cube shares nothing but ±d.
         let latitude_count =
             if *rotation == Rotation::IDENTITY { half * half + half * (half + 1) / 2 } else { 3 * size * size };
-        Self { size, directions, latitude_count }
+        Self { directions, latitude_count }
     }
 }

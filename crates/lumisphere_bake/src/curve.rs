@@ -3,7 +3,7 @@
 use lumisphere_bsdf::PerceptualRoughness;
 
 /// The perceptual roughness p of level `lod` in a chain of n levels. Level 0 is always the mirror, p = 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub enum RoughnessCurve {
     /// p = lod/(n-1): Khronos, Bevy.
     Linear,
@@ -37,7 +37,7 @@ impl RoughnessCurve {
 
     /// The level count this curve is made for, if it has one of its own.
     pub fn level_count(self) -> Option<usize> {
-        (self == Self::Unity).then_some(7)
+        matches!(self, Self::Unity).then_some(7)
     }
 }
 

@@ -16,16 +16,18 @@ pub(crate) fn read(texels: &[[f32; 3]], width: usize, direction: Vec3) -> [f64; 
     let (u, v) = latlong::uv(direction);
     let (x, y) = (u * width as f64 - 0.5, v * height as f64 - 0.5);
     let (wx, wy) = (weights(x - x.floor()), weights(y - y.floor()));
-    let first_x = x.floor() as i64 - (TAPS as i64 / 2 - 1);
+    let first_x = (x.floor() as i64 - (TAPS as i64 / 2 - 1)).rem_euclid(width as i64) as usize;
+    let across_x = (first_x + width / 2) % width;
     let first_y = y.floor() as i64 - (TAPS as i64 / 2 - 1);
     let mut sum = [0.0; 3];
     for (j, wy) in wy.iter().enumerate() {
         let (row, turned) = reflect(first_y + j as i64, height);
-        let start = first_x + if turned { width as i64 / 2 } else { 0 };
         let row = &texels[row * width..(row + 1) * width];
+        let mut x = if turned { across_x } else { first_x };
         let mut line = [0.0; 3];
-        for (i, wx) in wx.iter().enumerate() {
-            let texel = row[(start + i as i64).rem_euclid(width as i64) as usize];
+        for wx in &wx {
+            let texel = row[x];
+            x = if x + 1 == width { 0 } else { x + 1 };
             for c in 0..3 {
                 line[c] += wx * f64::from(texel[c]);
             }
@@ -35,6 +37,15 @@ pub(crate) fn read(texels: &[[f32; 3]], width: usize, direction: Vec3) -> [f64; 
         }
     }
     sum
+}
+
+/// The same along a meridian, for a quantity that depends on latitude only: `values` at the centres of the rows.
+pub(crate) fn read_zonal(values: &[f64], direction: Vec3) -> f64 {
+    let (_, v) = latlong::uv(direction);
+    let y = v * values.len() as f64 - 0.5;
+    let first = y.floor() as i64 - (TAPS as i64 / 2 - 1);
+    let taps = weights(y - y.floor());
+    taps.iter().enumerate().map(|(j, w)| w * values[reflect(first + j as i64, values.len()).0]).sum()
 }
 
 /// The row that continues the picture past a pole, and whether it lies on the far side.

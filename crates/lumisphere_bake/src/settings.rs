@@ -63,7 +63,7 @@ impl Outputs {
 }
 
 /// All choices of a bake. Spherical harmonics are always made: they cost nothing beside the rest.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct BakeSettings {
     /// Face size of the specular chain's level 0 in texels.
     pub size: usize,

@@ -3,6 +3,7 @@
 use crate::{BakeError, BakeSettings};
 use lumisphere_image::{Environment, Rgb, resample};
 use lumisphere_sphere::{Grid, Projection, Rotation};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// A lobe needs texels of at most this many α to be summed over texel centres: on coarser grids the sum sees single
@@ -18,9 +19,9 @@ const HUB_FINENESS: f64 = 2.0;
 ///
 /// # Errors
 /// [`BakeError::Unclean`] if a texel is negative or not finite.
-pub fn panorama(environment: Environment) -> Result<Environment, BakeError> {
+pub(crate) fn panorama(environment: Environment) -> Result<Environment, BakeError> {
     let is_radiance = |texel: &Rgb| texel.iter().all(|v| *v >= 0.0 && v.is_finite());
-    let count = environment.texels().iter().filter(|t| !is_radiance(t)).count();
+    let count = environment.texels().par_iter().filter(|t| !is_radiance(t)).count();
     if count > 0 {
         return Err(BakeError::Unclean { count });
     }
@@ -38,7 +39,7 @@ pub fn panorama(environment: Environment) -> Result<Environment, BakeError> {
 ///
 /// # Errors
 /// None but those of impossible sizes.
-pub fn refined(panorama: Environment, settings: &BakeSettings) -> Result<Environment, BakeError> {
+pub(crate) fn refined(panorama: Environment, settings: &BakeSettings) -> Result<Environment, BakeError> {
     let sharpest =
         settings.roughness().into_iter().map(|p| p.to_alpha().value()).filter(|a| *a > 0.0).fold(1.0, f64::min);
     let (width, height) = (panorama.grid().width(), panorama.grid().height());

@@ -4,6 +4,7 @@ use crate::BakeError;
 use crate::cube_directions::CubeDirections;
 use crate::interpolate::{self, LAGRANGE_ERROR, TAPS};
 use lumisphere_bsdf::Lobe;
+use lumisphere_image::Rgb;
 use lumisphere_sh::Spectrum;
 use lumisphere_sh::zonal::zonal_coefficients;
 use lumisphere_sphere::Vec3;
@@ -49,19 +50,19 @@ impl ZonalKernel {
     pub(crate) fn outruns_band(&self) -> bool {
         self.coefficients.get(BAND).is_some_and(|k| k.abs() > SPLIT_COEFFICIENT)
     }
+}
 
-    /// Rows of a lat-long grid on which interpolation keeps the image of a point light to a tolerance.
-    fn grid_rows(&self, kernel: &[f64], tolerance: f64) -> usize {
-        let energy = |l: usize| (2 * l + 1) as f64 * kernel[l].powi(2);
-        let total: f64 = (0..kernel.len()).map(energy).sum();
-        let error = |rows: usize| {
-            let step = PI / rows as f64;
-            let lost = |l: usize| (LAGRANGE_ERROR * (l as f64 * step).powi(TAPS as i32)).min(1.0);
-            (0..kernel.len()).map(|l| energy(l) * lost(l).powi(2)).sum::<f64>().sqrt()
-        };
-        let fits = |rows: &usize| error(*rows) <= tolerance * total.sqrt();
-        (1..=MAX_GRID_ROWS / ROW_STEP).map(|k| k * ROW_STEP).find(fits).unwrap_or(MAX_GRID_ROWS)
-    }
+/// Rows of a lat-long grid on which interpolation keeps the image of a point light to a tolerance.
+fn grid_rows(kernel: &[f64], tolerance: f64) -> usize {
+    let energy = |l: usize| (2 * l + 1) as f64 * kernel[l].powi(2);
+    let total: f64 = (0..kernel.len()).map(energy).sum();
+    let error = |rows: usize| {
+        let step = PI / rows as f64;
+        let lost = |l: usize| (LAGRANGE_ERROR * (l as f64 * step).powi(TAPS as i32)).min(1.0);
+        (0..kernel.len()).map(|l| energy(l) * lost(l).powi(2)).sum::<f64>().sqrt()
+    };
+    let fits = |rows: &usize| error(*rows) <= tolerance * total.sqrt();
+    (1..=MAX_GRID_ROWS / ROW_STEP).map(|k| k * ROW_STEP).find(fits).unwrap_or(MAX_GRID_ROWS)
 }
 
 /// |k_512| above which a lobe is split: exp(-2 · 0.0117 · 512), where the tail beyond begins to reach 1e-4 of the peak.
@@ -70,30 +71,40 @@ const SPLIT_COEFFICIENT: f64 = 6e-6;
 const ROW_STEP: usize = 64;
 const MAX_GRID_ROWS: usize = 2048;
 
-/// The environment's transform times `kernel[l]`, at `directions`.
+/// The environment's transform times `kernel[l]` at directions, and last the same of a picture of ones; interpolated where
+/// that keeps the image of a point light to `tolerance`.
 pub(crate) fn convolved_at(
     spectrum: &Spectrum,
-    zonal: &ZonalKernel,
     kernel: &[f64],
+    tolerance: f64,
     directions: &CubeDirections,
-) -> Vec<[f64; 3]> {
-    // The image of the tolerance on the grid: the band already dropped as much.
-    let rows = zonal.grid_rows(kernel, TOLERANCE);
+) -> Vec<[f64; 4]> {
+    let directions_list = &directions.directions;
+    let rows = grid_rows(kernel, tolerance);
     if directions.latitude_count < rows / 2 {
-        return spectrum.evaluate(kernel, &directions.directions);
+        let sums = spectrum.evaluate(kernel, directions_list);
+        let with_unit = |(&[r, g, b], d): (&[f64; 3], &Vec3)| [r, g, b, spectrum.unit_response(kernel, d[1])];
+        return sums.par_iter().zip(directions_list).map(with_unit).collect();
     }
     let width = 2 * rows;
-    let picture: Vec<[f32; 3]> = spectrum.synthesise(kernel, width, rows);
-    directions.directions.par_iter().map(|&d| interpolate::read(&picture, width, d)).collect()
+    let picture: Vec<Rgb> = spectrum.synthesise(kernel, width, rows);
+    let units = unit_rows(spectrum, kernel, rows);
+    let read = |&d: &Vec3| {
+        let [r, g, b] = interpolate::read(&picture, width, d);
+        [r, g, b, interpolate::read_zonal(&units, d)]
+    };
+    directions_list.par_iter().map(read).collect()
+}
+
+/// What a picture of ones becomes on each row of a lat-long grid.
+pub(crate) fn unit_rows(spectrum: &Spectrum, kernel: &[f64], rows: usize) -> Vec<f64> {
+    let row = |y: usize| spectrum.unit_response(kernel, (PI * (y as f64 + 0.5) / rows as f64).cos());
+    (0..rows).into_par_iter().map(row).collect()
 }
 
 /// Levels of lobes that the band holds: the weighted mean over texels, exact up to the band.
-pub(crate) fn level(spectrum: &Spectrum, zonal: &ZonalKernel, directions: &CubeDirections) -> Vec<[f32; 3]> {
+pub(crate) fn level(spectrum: &Spectrum, zonal: &ZonalKernel, directions: &CubeDirections) -> Vec<Rgb> {
     let kernel = &zonal.coefficients[..zonal.significant_band().min(spectrum.band())];
-    let sums = convolved_at(spectrum, zonal, kernel, directions);
-    let mean = |(sum, d): (&[f64; 3], &Vec3)| {
-        let unit = spectrum.unit_response(kernel, d[1]);
-        sum.map(|s| (s / unit).max(0.0) as f32)
-    };
-    sums.par_iter().zip(&directions.directions).map(mean).collect()
+    let sums = convolved_at(spectrum, kernel, TOLERANCE, directions);
+    sums.into_iter().map(|[r, g, b, unit]| [r, g, b].map(|v| (v / unit).max(0.0) as f32)).collect()
 }

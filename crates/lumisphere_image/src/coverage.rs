@@ -36,6 +36,8 @@ pub(crate) struct Vertex {
     direction: Vec3,
     column: f64,
     z: f64,
+    /// The row of the grid it lies on.
+    row: usize,
     at_pole: bool,
 }
 
@@ -49,7 +51,9 @@ impl LatLongCells {
     pub(crate) fn vertex(&self, direction: Vec3) -> Vertex {
         let [x, y, z] = direction;
         let column = (0.5 + z.atan2(x) / TAU) * self.width as f64;
-        Vertex { direction, column, z: y.clamp(-1.0, 1.0), at_pole: x * x + z * z < POLE_RADIUS * POLE_RADIUS }
+        let height = y.clamp(-1.0, 1.0);
+        let row = self.row_of(height, (height.acos() / PI * self.height as f64) as usize);
+        Vertex { direction, column, z: height, row, at_pole: x * x + z * z < POLE_RADIUS * POLE_RADIUS }
     }
 
     /// The row of a boundary point; `guess` is a row nearby.
@@ -63,16 +67,14 @@ impl LatLongCells {
         }
         row
     }
-
-    fn row_guess(&self, z: f64) -> usize {
-        (z.clamp(-1.0, 1.0).acos() / PI * self.height as f64) as usize
-    }
 }
 
 /// The texels a patch overlaps. Reused from patch to patch to keep its buffers.
 #[derive(Debug, Default)]
 pub(crate) struct Coverage {
     chords: Vec<(f64, f64)>,
+    /// +1 or -1: whichever makes the patch's area positive.
+    orientation: f64,
     first_row: usize,
     row_count: usize,
     first_column: i64,
@@ -86,19 +88,19 @@ impl Coverage {
     /// Overlaps of the patch whose boundary runs along great circles through `outline` (either way round).
     pub(crate) fn cover(&mut self, cells: &LatLongCells, outline: &[Vertex]) {
         self.follow_boundary(cells, outline);
-        self.reset_buffers(cells);
+        self.reset_buffers(cells, outline);
         for i in 1..self.chords.len() {
             self.add_chord(cells, self.chords[i - 1], self.chords[i]);
         }
     }
 
     /// Calls `visit(row, column, area)` for each overlapped texel; areas in steradians times W/2π.
+    #[inline(always)] // so that a visitor's sums stay in registers
     pub(crate) fn visit(&self, cells: &LatLongCells, mut visit: impl FnMut(usize, usize, f64)) {
-        // The orientation of the outline is free: the larger part of the signed area tells it.
-        let total: f64 = (0..self.column_count).map(|c| self.column_area(cells, c)).sum();
-        let sign = 1.0_f64.copysign(total);
+        let mut next = self.first_column.rem_euclid(cells.width as i64) as usize;
         for c in 0..self.column_count {
-            let column = (self.first_column + c as i64).rem_euclid(cells.width as i64) as usize;
+            let column = next;
+            next = if column + 1 == cells.width { 0 } else { column + 1 };
             let mut through = 0.0;
             for r in (0..self.row_count).rev() {
                 let at = r * self.column_count + c;
@@ -106,20 +108,10 @@ impl Coverage {
                 let area = self.partial[at] + through * (cells.edges[row] - cells.edges[row + 1]);
                 through += self.through[at];
                 if area != 0.0 {
-                    visit(row, column, sign * area);
+                    visit(row, column, self.orientation * area);
                 }
             }
         }
-    }
-
-    fn column_area(&self, cells: &LatLongCells, c: usize) -> f64 {
-        let base = cells.edges[self.first_row];
-        (0..self.row_count)
-            .map(|r| {
-                let at = r * self.column_count + c;
-                self.partial[at] + self.through[at] * (base - cells.edges[self.first_row + r])
-            })
-            .sum()
     }
 
     /// The closed boundary as chords in (column, z), columns unwrapped, poles closed.
@@ -174,19 +166,25 @@ impl Coverage {
         self.push(to, cells);
     }
 
-    fn reset_buffers(&mut self, cells: &LatLongCells) {
+    /// Room for the texels about the boundary.
+    fn reset_buffers(&mut self, cells: &LatLongCells, outline: &[Vertex]) {
         let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut low, mut high) = (1.0_f64, -1.0_f64);
+        let mut area = 0.0;
+        let mut last = self.chords.first().copied().unwrap_or_default();
         for &(column, z) in &self.chords {
             (left, right) = (left.min(column), right.max(column));
             (low, high) = (low.min(z), high.max(z));
+            area -= (column - last.0) * (z + last.1);
+            last = (column, z);
         }
         if self.chords.is_empty() {
             (self.row_count, self.column_count) = (0, 0);
             return;
         }
-        self.first_row = cells.row_of(high, cells.row_guess(high));
-        self.row_count = cells.row_of(low, cells.row_guess(low)) + 1 - self.first_row;
+        self.orientation = 1.0_f64.copysign(area);
+        self.first_row = cells.row_of(high, outline[0].row);
+        self.row_count = cells.row_of(low, outline[0].row) + 1 - self.first_row;
         self.first_column = left.floor() as i64;
         self.column_count = (right.floor() as i64 - self.first_column + 1) as usize;
         for buffer in [&mut self.partial, &mut self.through] {
@@ -228,13 +226,12 @@ impl Coverage {
     ) -> usize {
         let last = cells.row_of(to.1, row);
         let (mut row, (mut u, mut z)) = (row, from);
-        let per_z = (to.0 - from.0) / (to.1 - from.1);
         loop {
             let (next_u, next_z) = if row == last {
                 to
             } else {
                 let edge = if last > row { cells.edges[row + 1] } else { cells.edges[row] };
-                (from.0 + per_z * (edge - from.1), edge)
+                (from.0 + (to.0 - from.0) * ((edge - from.1) / (to.1 - from.1)), edge)
             };
             let width = next_u - u;
             let at = (row - self.first_row) * self.column_count + column;

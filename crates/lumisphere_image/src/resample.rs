@@ -87,7 +87,8 @@ fn scatter(source: &Environment, target: Grid, rotation: &Rotation) -> Environme
             }
         }
     }
-    let texels = light.into_iter().map(|[r, g, b, area]| [r, g, b].map(|v| if area > 0.0 { (v / area) as f32 } else { 0.0 }));
+    let texels =
+        light.into_iter().map(|[r, g, b, area]| [r, g, b].map(|v| if area > 0.0 { (v / area) as f32 } else { 0.0 }));
     Environment::new(target, texels.collect()).unwrap_or_else(|_| unreachable!("one texel for each place"))
 }
 

@@ -6,6 +6,8 @@
 pub mod basis;
 mod coefficients;
 mod error;
+mod fourier;
+mod latitudes;
 mod legendre;
 pub mod packed;
 pub mod product;
@@ -15,16 +17,17 @@ mod rotation;
 mod sphere_rule;
 #[cfg(test)]
 mod test_support;
-pub mod transform;
+mod transform;
 pub mod window;
 pub mod zonal;
 
 pub use basis::Basis;
 pub use coefficients::{Sh, Sh1, ShRgb};
 pub use error::ShError;
+pub use fourier::{FourierRows, RowWeights, Sample};
 pub use product::ProductTable;
 pub use rotation::ShRotation;
 pub use sphere_rule::SphereRule;
-pub use transform::{RowWeights, Spectrum};
+pub use transform::Spectrum;
 pub use window::{Window, WindowShape};
 pub use zonal::{ZonalLobe, convolve};

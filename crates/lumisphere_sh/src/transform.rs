@@ -7,58 +7,19 @@
 //! The spectrum lives in the *panorama frame*: the polar axis is the picture's (world +Y) and φ runs with u, so that
 //! no coefficient is mixed with another; [`Spectrum::to_sh`] turns it into the world's convention.
 
-use crate::legendre::{LegendreTable, is_negligible};
+use crate::fourier::{FourierRows, PARTS, RowWeights, RowWriter, Rows, Sample, TILE, TileSums};
+use crate::latitudes::{Latitudes, sum_orders};
+use crate::legendre::LegendreTable;
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
-use lumisphere_sphere::quadrature::fejer_first;
-use lumisphere_sphere::{Vec3, latlong};
+use lumisphere_sphere::Vec3;
 use rayon::prelude::*;
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use std::f64::consts::{PI, TAU};
+use realfft::RealFftPlanner;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Pairs of mirrored rows that are transformed together; a multiple of every SIMD width in use.
-const TILE: usize = 8;
-/// Numbers a coefficient has: cosine and sine part of three channels.
-const PARTS: usize = 6;
 /// Pairs of rows a synthesis task owns: enough that the coefficients it reads are used several times from cache.
 const SYNTHESIS_PAIRS: usize = 4 * TILE;
-
-/// A sample of a picture: `f32` for images, `f64` where the transform itself is measured.
-pub trait Sample: Copy + Send + Sync + Default {
-    /// To f64, exactly.
-    fn widen(self) -> f64;
-    /// Rounded from f64.
-    fn narrow(value: f64) -> Self;
-}
-
-impl Sample for f32 {
-    fn widen(self) -> f64 {
-        f64::from(self)
-    }
-    fn narrow(value: f64) -> Self {
-        value as f32
-    }
-}
-
-impl Sample for f64 {
-    fn widen(self) -> f64 {
-        self
-    }
-    fn narrow(value: f64) -> Self {
-        value
-    }
-}
-
-/// How much of the sphere a row stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RowWeights {
-    /// The exact solid angle of its texels: the spectrum is that of the picture as a sum of texels.
-    TexelSolidAngle,
-    /// Fejér's first rule: exact for a function whose band is below half the height.
-    Fejer,
-}
 
 /// Spherical-harmonic coefficients of an RGB picture below a band, in the panorama frame.
 #[derive(Debug, Clone)]
@@ -71,19 +32,18 @@ pub struct Spectrum {
     table: Arc<LegendreTable>,
 }
 
-/// Even and odd Fourier sums of one tile: `[m][parity][part][row]`.
-type TileSums = [[[f64; TILE]; PARTS]; 2];
-
 impl Spectrum {
     /// Coefficients of degree l < `band` of a lat-long picture of `width` texels a row.
     ///
     /// Any band may be asked for; the sum over texels is computed as it stands, whatever its aliases.
     pub fn forward<T: Sample>(texels: &[[T; 3]], width: usize, band: usize, weights: RowWeights) -> Self {
-        let height = texels.len() / width;
-        let rows = Rows::of_picture(height);
+        Self::from_rows(FourierRows::new(texels, width, band, weights))
+    }
+
+    /// The Legendre sums down the columns.
+    pub fn from_rows(fourier: FourierRows) -> Self {
+        let FourierRows { band, rows, sums, row_areas } = fourier;
         let table = Arc::new(LegendreTable::new(band));
-        let row_weights = row_weights(width, height, weights);
-        let sums = fourier_sums(texels, width, band, &row_weights, &rows);
         let columns: Vec<Vec<[f64; PARTS]>> = balanced_orders(band)
             .into_par_iter()
             .map(|m| {
@@ -96,7 +56,7 @@ impl Spectrum {
             let start = LegendreTable::offset(band, m);
             values[start..start + column.len()].copy_from_slice(&column);
         }
-        let unit = unit_coefficients(&table, band, &row_weights.iter().map(|w| w * width as f64).collect::<Vec<_>>());
+        let unit = unit_coefficients(&table, band, &row_areas);
         Self { band, values, unit, table }
     }
 
@@ -230,59 +190,11 @@ impl Spectrum {
     }
 }
 
-/// sin θ and cos θ of rows north of the equator, from the pole down, padded with empty rows to whole tiles.
-struct Rows {
-    sin: Vec<f64>,
-    cos: Vec<f64>,
-    count: usize,
-}
-
-impl Rows {
-    /// The upper half of a lat-long picture, the middle row of an odd height included.
-    fn of_picture(height: usize) -> Self {
-        let theta = |j: usize| PI * (j as f64 + 0.5) / height as f64;
-        Self::new((0..height.div_ceil(2)).map(|j| theta(j).sin_cos()).collect())
-    }
-
-    /// (sin θ, cos θ) of each row, cos θ falling from 1 towards 0.
-    fn new(rows: Vec<(f64, f64)>) -> Self {
-        let count = rows.len();
-        let (mut sin, mut cos): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
-        for values in [&mut sin, &mut cos] {
-            values.resize(count.next_multiple_of(TILE), 0.0);
-        }
-        Self { sin, cos, count }
-    }
-
-    fn tile_count(&self) -> usize {
-        self.sin.len() / TILE
-    }
-
-    /// sin θ rises with the row, so the last row of a tile decides.
-    fn tile_is_negligible(&self, tile: usize, band: usize, m: usize) -> bool {
-        let last = (tile * TILE + TILE - 1).min(self.count - 1);
-        is_negligible(band, m, self.sin[last])
-    }
-
-    /// The first tile that matters to order m.
-    fn first_tile(&self, band: usize, m: usize) -> usize {
-        (0..self.tile_count()).find(|&t| !self.tile_is_negligible(t, band, m)).unwrap_or(self.tile_count())
-    }
-}
-
-/// Steradians that one texel of each row stands for.
-fn row_weights(width: usize, height: usize, weights: RowWeights) -> Vec<f64> {
-    match weights {
-        RowWeights::TexelSolidAngle => (0..height).map(|j| latlong::texel_solid_angle(width, height, j)).collect(),
-        RowWeights::Fejer => fejer_first(height).weights.iter().map(|w| w * TAU / width as f64).collect(),
-    }
-}
-
-/// `Σ Ω P(l, 0)` over all texels of a grid.
-fn unit_coefficients(table: &LegendreTable, band: usize, row_weights: &[f64]) -> Vec<f64> {
-    let height = row_weights.len();
+/// `Σ Ω P(l, 0)` over all rows of a grid.
+fn unit_coefficients(table: &LegendreTable, band: usize, row_areas: &[f64]) -> Vec<f64> {
+    let height = row_areas.len();
     let mut unit = vec![0.0; band];
-    for (j, weight) in row_weights.iter().enumerate() {
+    for (j, weight) in row_areas.iter().enumerate() {
         let x = (PI * (j as f64 + 0.5) / height as f64).cos();
         let (mut p, mut below) = (table.seed(0), 0.0);
         for (l, sum) in unit.iter_mut().enumerate() {
@@ -298,88 +210,6 @@ fn unit_coefficients(table: &LegendreTable, band: usize, row_weights: &[f64]) ->
 /// Low orders carry the longest columns: deal them so that every part of the list weighs about the same.
 fn balanced_orders(band: usize) -> Vec<usize> {
     (0..band.div_ceil(2)).flat_map(|m| [m, band - 1 - m]).take(band).collect()
-}
-
-/// e^(-i m φ₀) for the first texel's centre, φ₀ = π/W - π.
-fn phase(m: usize, width: usize) -> Complex<f64> {
-    Complex::from_polar(1.0, -(m as f64) * (PI / width as f64 - PI))
-}
-
-/// Step one: the weighted Fourier sums of every row, mirrored rows folded, tile after tile.
-fn fourier_sums<T: Sample>(
-    texels: &[[T; 3]],
-    width: usize,
-    band: usize,
-    weights: &[f64],
-    rows: &Rows,
-) -> Vec<TileSums> {
-    let forward = RealFftPlanner::<f64>::new().plan_fft_forward(width);
-    let phases: Vec<_> = (0..band).map(|m| phase(m, width)).collect();
-    let (height, pairs) = (texels.len() / width, rows.count);
-    let mut sums = vec![[[[0.0; TILE]; PARTS]; 2]; rows.tile_count() * band];
-    sums.par_chunks_mut(band).enumerate().for_each(|(tile, sums)| {
-        let mut reader = RowReader::new(&forward, width);
-        for lane in 0..TILE.min(pairs - (tile * TILE).min(pairs)) {
-            let north = tile * TILE + lane;
-            let south = height - 1 - north;
-            for channel in 0..3 {
-                reader.load(texels, width, north, channel, weights[north]);
-                for (m, sum) in sums.iter_mut().enumerate() {
-                    let z = reader.bin(m) * phases[m];
-                    for parity in 0..2 {
-                        sum[parity][2 * channel][lane] = z.re;
-                        sum[parity][2 * channel + 1][lane] = -z.im;
-                    }
-                }
-                if south == north {
-                    continue;
-                }
-                reader.load(texels, width, south, channel, weights[south]);
-                for (m, sum) in sums.iter_mut().enumerate() {
-                    let z = reader.bin(m) * phases[m];
-                    for (parity, sign) in [(0, 1.0), (1, -1.0)] {
-                        sum[parity][2 * channel][lane] += sign * z.re;
-                        sum[parity][2 * channel + 1][lane] -= sign * z.im;
-                    }
-                }
-            }
-        }
-    });
-    sums
-}
-
-/// The FFT of one channel of one row.
-struct RowReader {
-    fft: Arc<dyn RealToComplex<f64>>,
-    input: Vec<f64>,
-    bins: Vec<Complex<f64>>,
-    scratch: Vec<Complex<f64>>,
-}
-
-impl RowReader {
-    fn new(fft: &Arc<dyn RealToComplex<f64>>, width: usize) -> Self {
-        Self {
-            fft: Arc::clone(fft),
-            input: vec![0.0; width],
-            bins: fft.make_output_vec(),
-            scratch: fft.make_scratch_vec(),
-        }
-    }
-
-    fn load<T: Sample>(&mut self, texels: &[[T; 3]], width: usize, row: usize, channel: usize, weight: f64) {
-        for (value, texel) in self.input.iter_mut().zip(&texels[row * width..(row + 1) * width]) {
-            *value = weight * texel[channel].widen();
-        }
-        let done = self.fft.process_with_scratch(&mut self.input, &mut self.bins, &mut self.scratch);
-        debug_assert!(done.is_ok(), "the buffers have the plan's own lengths");
-    }
-
-    /// `Σ x_i e^(-2πi m i / W)` for any m: the bins repeat with period W and are conjugate about W/2.
-    fn bin(&self, m: usize) -> Complex<f64> {
-        let width = self.input.len();
-        let k = m % width;
-        if k <= width / 2 { self.bins[k] } else { self.bins[width - k].conj() }
-    }
 }
 
 /// Step two: coefficients of order m: the sums of P(l, m) over the rows, two degrees at a time.
@@ -433,8 +263,8 @@ fn two_degrees<S: Simd>(
 ) -> [[f64; PARTS]; 2] {
     let n = S::f64s::LEN;
     let zero = S::f64s::splat(simd, 0.0);
-    let [a1, b1] = up.map(|v| S::f64s::splat(simd, v));
-    let [a2, b2] = next.map(|v| S::f64s::splat(simd, v));
+    let (a1, b1) = (S::f64s::splat(simd, up[0]), S::f64s::splat(simd, up[1]));
+    let (a2, b2) = (S::f64s::splat(simd, next[0]), S::f64s::splat(simd, next[1]));
     let mut even = [zero; PARTS];
     let mut odd = [zero; PARTS];
     for (t, tile) in tiles.iter().enumerate() {
@@ -455,7 +285,13 @@ fn two_degrees<S: Simd>(
             }
         }
     }
-    [even.map(|v| v.reduce_sum()), odd.map(|v| v.reduce_sum())]
+    // Not `map`: a closure would leave the dispatched function.
+    let mut sums = [[0.0; PARTS]; 2];
+    for part in 0..PARTS {
+        sums[0][part] = even[part].reduce_sum();
+        sums[1][part] = odd[part].reduce_sum();
+    }
+    sums
 }
 
 /// The inverse of step two for one tile: `Σ_l a_lm P(l, m)`, even and odd l + m apart, in registers all the way.
@@ -505,137 +341,10 @@ fn column_sums<S: Simd>(
     sums
 }
 
-/// Directions grouped by |latitude|: both hemispheres share one row.
-struct Latitudes {
-    /// (sin θ, cos θ) with cos θ = |y|, falling.
-    rows: Vec<(f64, f64)>,
-    /// Indices of the directions on each row.
-    members: Vec<Vec<usize>>,
-}
-
-impl Latitudes {
-    /// Heights nearer than this are one latitude: mirrored texels differ by rounding only.
-    const SAME: f64 = 1e-13;
-
-    fn of(directions: &[Vec3]) -> Self {
-        let mut order: Vec<usize> = (0..directions.len()).collect();
-        order.sort_by(|&a, &b| directions[b][1].abs().total_cmp(&directions[a][1].abs()).then(a.cmp(&b)));
-        let mut groups = Self { rows: Vec::new(), members: Vec::new() };
-        for i in order {
-            let [x, y, z] = directions[i];
-            match (groups.rows.last(), groups.members.last_mut()) {
-                (Some(&(_, last)), Some(members)) if last - y.abs() < Self::SAME => members.push(i),
-                _ => {
-                    groups.rows.push((x.hypot(z), y.abs()));
-                    groups.members.push(vec![i]);
-                }
-            }
-        }
-        groups
-    }
-}
-
-/// `Σ_m A_m cos mφ + B_m sin mφ` at one direction of a tile's row.
-fn sum_orders(orders: &[TileSums], lane: usize, direction: Vec3) -> [f64; 3] {
-    let [x, y, z] = direction;
-    let parity_sign = if y < 0.0 { -1.0 } else { 1.0 };
-    let azimuth = x.hypot(z);
-    let step = if azimuth > 0.0 { Complex::new(x / azimuth, z / azimuth) } else { Complex::new(1.0, 0.0) };
-    let mut wave = Complex::new(1.0, 0.0);
-    let mut sum = [0.0; 3];
-    for (m, order) in orders.iter().enumerate() {
-        // A running product drifts by an ulp a step; start afresh now and then.
-        if m % 32 == 0 {
-            wave = Complex::from_polar(1.0, m as f64 * z.atan2(x));
-        }
-        for (c, sum) in sum.iter_mut().enumerate() {
-            let a = order[0][2 * c][lane] + parity_sign * order[1][2 * c][lane];
-            let b = order[0][2 * c + 1][lane] + parity_sign * order[1][2 * c + 1][lane];
-            *sum += a * wave.re + b * wave.im;
-        }
-        wave *= step;
-    }
-    sum
-}
-
-/// Gathers the orders of one tile of rows and turns them into texels.
-struct RowWriter {
-    fft: Arc<dyn ComplexToReal<f64>>,
-    width: usize,
-    phases: Vec<Complex<f64>>,
-    /// `[hemisphere][row][channel][bin]`.
-    bins: Vec<Complex<f64>>,
-    output: Vec<f64>,
-    scratch: Vec<Complex<f64>>,
-}
-
-impl RowWriter {
-    fn new(fft: &Arc<dyn ComplexToReal<f64>>, width: usize, band: usize) -> Self {
-        Self {
-            fft: Arc::clone(fft),
-            width,
-            phases: (0..band).map(|m| phase(m, width).conj()).collect(),
-            bins: vec![Complex::default(); 2 * TILE * 3 * (width / 2 + 1)],
-            output: vec![0.0; width],
-            scratch: fft.make_scratch_vec(),
-        }
-    }
-
-    fn start(&mut self) {
-        self.bins.fill(Complex::default());
-    }
-
-    /// Adds `A cos mφ + B sin mφ = Re[(A - iB) e^(imφ)]` to both hemispheres.
-    fn add_order(&mut self, m: usize, sums: &TileSums) {
-        let (width, bin_count) = (self.width, self.width / 2 + 1);
-        let k = m % width;
-        let mirrored = k > width / 2;
-        let bin = if mirrored { width - k } else { k };
-        // A bin that is its own mirror image stands for the whole real wave, any other for half of it.
-        let own_mirror = bin == 0 || 2 * bin == width;
-        for (hemisphere, sign) in [(0, 1.0), (1, -1.0)] {
-            for row in 0..TILE {
-                for channel in 0..3 {
-                    let a = sums[0][2 * channel][row] + sign * sums[1][2 * channel][row];
-                    let b = sums[0][2 * channel + 1][row] + sign * sums[1][2 * channel + 1][row];
-                    let z = Complex::new(a, -b) * self.phases[m];
-                    let z = if mirrored { z.conj() } else { z };
-                    let target = &mut self.bins[((hemisphere * TILE + row) * 3 + channel) * bin_count + bin];
-                    *target += if own_mirror { Complex::new(z.re, 0.0) } else { 0.5 * z };
-                }
-            }
-        }
-    }
-
-    /// Inverse FFT of every row into the northern rows and their mirrors.
-    fn write<T: Sample>(&mut self, north: &mut [[T; 3]], south: &mut [&mut [[T; 3]]]) {
-        for (row, texels) in north.chunks_mut(self.width).enumerate() {
-            self.write_row(row, texels);
-        }
-        for (row, texels) in south.iter_mut().enumerate() {
-            if !texels.is_empty() {
-                self.write_row(TILE + row, texels);
-            }
-        }
-    }
-
-    fn write_row<T: Sample>(&mut self, row: usize, texels: &mut [[T; 3]]) {
-        let bin_count = self.width / 2 + 1;
-        for channel in 0..3 {
-            let start = (row * 3 + channel) * bin_count;
-            let bins = &mut self.bins[start..start + bin_count];
-            let done = self.fft.process_with_scratch(bins, &mut self.output, &mut self.scratch);
-            debug_assert!(done.is_ok(), "lengths are the plan's own and the end bins are real");
-            for (texel, value) in texels.iter_mut().zip(&self.output) {
-                texel[channel] = T::narrow(*value);
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lumisphere_sphere::latlong;
 
     /// A picture of full band, from a hash of the index.
     fn noise(count: usize) -> Vec<[f64; 3]> {
@@ -710,13 +419,11 @@ mod tests {
     fn any_simd_width_gives_the_same_coefficients() {
         // The widest level against the baseline: sums are grouped otherwise, so rounding differs and nothing else.
         let table = LegendreTable::new(96);
-        let rows = Rows::of_picture(64);
-        let texels = noise(128 * 64);
-        let weights = row_weights(128, 64, RowWeights::TexelSolidAngle);
-        let sums = fourier_sums(&texels, 128, 96, &weights, &rows);
+        let fourier = FourierRows::new(&noise(128 * 64), 128, 96, RowWeights::TexelSolidAngle);
+        let (rows, sums) = (&fourier.rows, &fourier.sums);
         for m in [0, 1, 50, 95] {
-            let best = dispatch!(Level::new(), simd => legendre_sums(simd, &table, m, 96, &rows, &sums));
-            let base = dispatch!(Level::baseline(), simd => legendre_sums(simd, &table, m, 96, &rows, &sums));
+            let best = dispatch!(Level::new(), simd => legendre_sums(simd, &table, m, 96, rows, sums));
+            let base = dispatch!(Level::baseline(), simd => legendre_sums(simd, &table, m, 96, rows, sums));
             for (a, b) in best.iter().flatten().zip(base.iter().flatten()) {
                 assert!((a - b).abs() < 1e-13);
             }

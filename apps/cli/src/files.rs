@@ -1,0 +1,159 @@
+//! Files that appear complete and all at once, or not at all.
+//!
+//! Each file is written under a temporary name in its own folder and renamed when all of them are there. An interrupt
+//! or an error before that removes the temporary files, and the folders that were made for them.
+
+use anyhow::{Context, Result, anyhow};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use tempfile::{Builder, NamedTempFile};
+
+/// Exit code after an interrupt: 128 and the number of SIGINT, as shells report it.
+const INTERRUPTED: i32 = 130;
+
+/// What has been written and not yet renamed.
+#[derive(Default)]
+struct Staged {
+    /// Folders made for the files, outermost first.
+    folders: Vec<PathBuf>,
+    files: Vec<(NamedTempFile, PathBuf)>,
+}
+
+impl Staged {
+    /// Removes everything, as far as that succeeds.
+    fn discard(&mut self) {
+        for (file, _) in self.files.drain(..) {
+            // There is nobody left to tell of a file that cannot be removed.
+            let _ = file.close();
+        }
+        for folder in self.folders.drain(..).rev() {
+            // Fails, rightly, if somebody else has put something into it.
+            let _ = std::fs::remove_dir(folder);
+        }
+    }
+}
+
+/// The place where files wait until all are complete.
+#[derive(Clone, Default)]
+pub struct Stage {
+    staged: Arc<Mutex<Staged>>,
+}
+
+impl Stage {
+    /// An empty stage that is cleared when the program is interrupted or told to end.
+    pub fn cleared_on_interrupt() -> Result<Self> {
+        let stage = Self::default();
+        let shared = stage.clone();
+        ctrlc::set_handler(move || {
+            // Holding the lock keeps the main thread from making or renaming files until the end.
+            let mut staged = shared.lock();
+            staged.discard();
+            std::process::exit(INTERRUPTED);
+        })
+        .context("cannot watch for interrupts")?;
+        Ok(stage)
+    }
+
+    /// Writes files under temporary names in `folder`, which is made if it is not there.
+    pub fn write(&self, folder: &Path, files: &[(&str, &[u8])]) -> Result<()> {
+        self.make_folder(folder).with_context(|| folder.display().to_string())?;
+        for (name, bytes) in files {
+            let path = folder.join(name);
+            self.write_one(folder, &path, bytes).with_context(|| path.display().to_string())?;
+        }
+        Ok(())
+    }
+
+    /// Gives every file its name.
+    pub fn publish(&self) -> Result<()> {
+        let mut staged = self.lock();
+        while !staged.files.is_empty() {
+            let (file, path) = staged.files.remove(0);
+            file.persist(&path).map_err(|error| error.error).with_context(|| path.display().to_string())?;
+        }
+        staged.folders.clear();
+        Ok(())
+    }
+
+    fn make_folder(&self, folder: &Path) -> Result<()> {
+        if folder.is_dir() {
+            return Ok(());
+        }
+        let mut staged = self.lock();
+        let missing: Vec<&Path> = folder.ancestors().take_while(|a| !a.as_os_str().is_empty() && !a.exists()).collect();
+        for ancestor in missing.into_iter().rev() {
+            std::fs::create_dir(ancestor)?;
+            staged.folders.push(ancestor.to_owned());
+        }
+        if folder.is_dir() { Ok(()) } else { Err(anyhow!("found a file, expected a folder")) }
+    }
+
+    fn write_one(&self, folder: &Path, path: &Path, bytes: &[u8]) -> Result<()> {
+        if path.is_dir() {
+            return Err(anyhow!("found a folder, expected a file or nothing"));
+        }
+        let mut handle = {
+            let mut staged = self.lock();
+            let file = temporary(folder)?;
+            let handle = file.as_file().try_clone()?;
+            staged.files.push((file, path.to_owned()));
+            handle
+        };
+        handle.write_all(bytes)?;
+        Ok(())
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Staged> {
+        self.staged.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Stage {
+    /// The last but one owner is the program's own; the last is the interrupt handler, which lives on.
+    fn drop(&mut self) {
+        self.lock().discard();
+    }
+}
+
+fn temporary(folder: &Path) -> std::io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    builder.prefix(".lumisphere-").suffix(".part");
+    #[cfg(unix)]
+    {
+        // Temporary files are private by default; these become ordinary ones, under the user's umask.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_left_of_what_is_not_published() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("a/b");
+        let stage = Stage::default();
+        stage.write(&folder, &[("x", b"1"), ("y", b"2")]).unwrap();
+        assert!(!folder.join("x").exists());
+        drop(stage);
+        assert!(!root.path().join("a").exists());
+    }
+
+    #[test]
+    fn published_files_replace_older_ones_and_leave_no_other() {
+        let root = tempfile::tempdir().unwrap();
+        std::fs::write(root.path().join("x"), b"old").unwrap();
+        let stage = Stage::default();
+        stage.write(root.path(), &[("x", b"new")]).unwrap();
+        assert_eq!(std::fs::read(root.path().join("x")).unwrap(), b"old");
+        stage.publish().unwrap();
+        drop(stage);
+        assert_eq!(std::fs::read(root.path().join("x")).unwrap(), b"new");
+        assert_eq!(std::fs::read_dir(root.path()).unwrap().count(), 1);
+    }
+}
