@@ -1,1 +1,52 @@
-fn main() {}
+//! The project's own checks and benchmarks: `cargo xtask test`, `arrows`, `bench-peers`.
+#![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for developers talks to them
+
+mod arrows;
+mod bench_peers;
+mod checks;
+mod workspace;
+
+use anyhow::{Result, bail};
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+Usage: cargo xtask COMMAND
+
+  test [--quick]           run every check; --quick leaves out the slow ones
+  arrows                   hold the dependencies between the crates against the table
+  bench-peers [--scaling]  compare `lumisphere bake` with cmgen; --scaling: time against sizes";
+
+/// What a check found wrong.
+const CHECK_FAILED: u8 = 1;
+/// A wrong command line, or something missing that is needed.
+const UNUSABLE: u8 = 2;
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = args.iter().map(String::as_str).collect();
+    match run(&words) {
+        Ok(code) => code,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(UNUSABLE)
+        }
+    }
+}
+
+fn run(words: &[&str]) -> Result<ExitCode> {
+    let passed = match words {
+        ["test"] => checks::run(checks::Extent::All)?,
+        ["test", "--quick"] => checks::run(checks::Extent::Quick)?,
+        ["arrows"] => arrows::run()?,
+        ["bench-peers"] => bench_peers::compare()?,
+        ["bench-peers", "--scaling"] => bench_peers::scaling()?,
+        [bench_peers::MEASURE, command @ ..] => bench_peers::measure_child(command)?,
+        ["help" | "--help" | "-h"] => {
+            println!("{USAGE}");
+            true
+        }
+        [] => bail!("no command\n{USAGE}"),
+        _ => bail!("found {:?}, expected one of these\n{USAGE}", words.join(" ")),
+    };
+    Ok(if passed { ExitCode::SUCCESS } else { ExitCode::from(CHECK_FAILED) })
+}

@@ -12,13 +12,13 @@ use std::path::PathBuf;
 #[derive(Debug, Parser)]
 #[command(name = "lumisphere", version, propagate_version = true, arg_required_else_help = true, max_term_width = 110)]
 #[command(after_help = "Exit codes: 0 success, 1 verify found an error over the contract, 2 anything that went wrong.")]
-pub struct Cli {
+pub(crate) struct Cli {
     #[command(subcommand)]
     pub command: Command,
 }
 
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub(crate) enum Command {
     Bake(Box<BakeArgs>),
     Inspect(InspectArgs),
     Verify(VerifyArgs),
@@ -49,7 +49,7 @@ builtin:sky?turbidity=4&elevation=30&azimuth=120 (quote the & from the shell, or
 /// Writes specular.ktx2, irradiance.ktx2, skybox.ktx2, sh.json, dfg.ktx2, preview.png and bake.json. All of them appear
 /// when all are ready, or none.
 #[derive(Debug, Args)]
-pub struct BakeArgs {
+pub(crate) struct BakeArgs {
     #[arg(value_name = "ENV", default_value = "builtin:studio", help = ENV_HELP, long_help = ENV_LONG_HELP)]
     pub environment: String,
     /// Folder for the files; made if it is not there [default: bake/<name of ENV>]
@@ -78,7 +78,7 @@ pub struct BakeArgs {
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Specular chain")]
-pub struct ChainArgs {
+pub(crate) struct ChainArgs {
     /// Face size of level 0 in texels, a power of two
     #[arg(long, value_name = "N", default_value_t = 256)]
     pub size: usize,
@@ -110,7 +110,7 @@ pub struct ChainArgs {
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Other lighting")]
-pub struct SizeArgs {
+pub(crate) struct SizeArgs {
     /// Face size of the skybox [default: as the chain]
     #[arg(long, value_name = "N")]
     pub skybox_size: Option<usize>,
@@ -134,7 +134,7 @@ pub struct SizeArgs {
 /// What is done to the picture before it is baked.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Picture")]
-pub struct PictureArgs {
+pub(crate) struct PictureArgs {
     /// Layout of the picture [default: the file's own word, else a guess from its shape]
     #[arg(long, value_enum)]
     pub layout: Option<LayoutChoice>,
@@ -157,7 +157,7 @@ pub struct PictureArgs {
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Files")]
-pub struct FileArgs {
+pub(crate) struct FileArgs {
     /// Texel format of the cubes; the DFG table is RG32F beside rgba32f, else RG16F
     #[arg(long, value_enum, default_value_t = FormatChoice::Auto)]
     pub format: FormatChoice,
@@ -168,7 +168,7 @@ pub struct FileArgs {
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Resources")]
-pub struct CommonArgs {
+pub(crate) struct CommonArgs {
     /// Threads to work with [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
@@ -181,7 +181,7 @@ pub struct CommonArgs {
 ///
 /// Size, layout, format, extremes and means, illuminance, dynamic range, damaged texels; for KTX2 each level.
 #[derive(Debug, Args)]
-pub struct InspectArgs {
+pub(crate) struct InspectArgs {
     /// A .hdr, .exr, .png or .ktx2 file, or the sh.json or bake.json of a bake
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
@@ -200,7 +200,7 @@ pub struct InspectArgs {
 /// Reads the files of DIR, does to ENV what bake.json says was done, and compares: each level's relative RMS, worst texel,
 /// energy and seams, the spherical harmonics and the DFG table. Exits 1 if an error is over the contract.
 #[derive(Debug, Args)]
-pub struct VerifyArgs {
+pub(crate) struct VerifyArgs {
     /// The folder that `lumisphere bake` made
     #[arg(value_name = "DIR")]
     pub directory: PathBuf,

@@ -16,10 +16,10 @@ use clap::ValueEnum;
 use lumisphere::bake::{BakeSettings, BakedEnvironment, MonteCarloSettings, Outputs, Step, bake};
 use lumisphere_codec::{Encoded, Limits};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Bakes as the arguments say.
-pub fn run(args: &BakeArgs) -> Result<()> {
+pub(crate) fn run(args: &BakeArgs) -> Result<()> {
     let timings = Timings::start();
     let source = Source::parse(&args.environment)?;
     let directory = args.output.clone().unwrap_or_else(|| Path::new("bake").join(source.name()));
@@ -32,7 +32,7 @@ pub fn run(args: &BakeArgs) -> Result<()> {
     let limits = Limits { max_bytes: args.common.max_memory };
     let prepared = load(&source, adjustments.layout, limits, &timings)
         .and_then(|loaded| prepare(loaded, &adjustments, &timings))
-        .with_context(|| place(&source))?;
+        .with_context(|| source.place())?;
     let input = InputRecord::new(&args.environment, &prepared);
     let preview = wanted.preview().then(|| {
         timings.begin("preview panorama");
@@ -73,14 +73,6 @@ fn report(args: &BakeArgs, record: &Record, directory: &Path, timings: &Timings,
         Ok(())
     } else {
         output::text(&summary::of_bake(record, directory, timings.total(), note.as_deref()))
-    }
-}
-
-/// The path for errors that do not name it themselves: a file's errors do.
-fn place(source: &Source) -> String {
-    match source {
-        Source::File(path) => path.display().to_string(),
-        Source::Builtin(builtin) => format!("builtin:{}", builtin.environment.name()),
     }
 }
 
@@ -205,7 +197,7 @@ fn encode_all(
 /// Writes the files and the record of them, then shows them all.
 fn write(
     stage: &Stage,
-    directory: &PathBuf,
+    directory: &Path,
     files: &[ReadyFile],
     timings: &Timings,
     record: impl FnOnce(Vec<(String, f64)>, BTreeMap<String, FileRecord>) -> Record,

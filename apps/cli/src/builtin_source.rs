@@ -4,7 +4,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use lumisphere::image::{Builtin, DEFAULT_BUILTIN_HEIGHT, SkySettings};
 
 /// What starts the name of a built-in environment.
-pub const PREFIX: &str = "builtin:";
+pub(crate) const PREFIX: &str = "builtin:";
 
 /// Tallest picture that is made: 16384 x 8192.
 const MAX_HEIGHT: usize = 8192;
@@ -13,14 +13,14 @@ const SIMILAR: f64 = 0.7;
 
 /// A built-in environment and how many rows it gets.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BuiltinSource {
+pub(crate) struct BuiltinSource {
     pub environment: Builtin,
     pub height: usize,
 }
 
 impl BuiltinSource {
     /// Reads what follows [`PREFIX`].
-    pub fn parse(text: &str) -> Result<Self> {
+    pub(crate) fn parse(text: &str) -> Result<Self> {
         let (name, query) = text.split_once('?').unwrap_or((text, ""));
         let mut environment = Builtin::from_name(name)
             .ok_or_else(|| anyhow!("no built-in environment {name:?}{}", choices(name, Builtin::names())))?;
@@ -85,7 +85,7 @@ impl SkyWords {
 }
 
 /// "; did you mean ...?" if a known word is close, else the list of them.
-pub fn choices(found: &str, known: &[&str]) -> String {
+pub(crate) fn choices(found: &str, known: &[&str]) -> String {
     let similarity = |word: &&&str| strsim::jaro(found, word);
     let best = known.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
     match best.filter(|word| similarity(word) > SIMILAR) {

@@ -13,11 +13,11 @@ macro_rules! choice {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
         #[serde(rename_all = "kebab-case")]
-        pub enum $name { $($(#[$help])* $word,)* }
+        pub(crate) enum $name { $($(#[$help])* $word,)* }
 
         impl $name {
             /// The library's value.
-            pub const fn value(self) -> $library {
+            pub(crate) const fn value(self) -> $library {
                 match self { $(Self::$word => $value,)* }
             }
         }
@@ -129,7 +129,7 @@ const ZSTD: Supercompression = Supercompression::Zstd(3);
 
 /// Texel format of the cubes, before `auto` has been decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FormatChoice {
+pub(crate) enum FormatChoice {
     /// rgba16f, or rgba32f if a value is above 65504
     Auto,
     Rgba32f,
@@ -141,7 +141,7 @@ pub enum FormatChoice {
 /// Texel format of the cubes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum CubeFormat {
+pub(crate) enum CubeFormat {
     Rgba32f,
     Rgba16f,
     Rgb9e5,
@@ -150,7 +150,7 @@ pub enum CubeFormat {
 
 impl FormatChoice {
     /// The format for texels whose largest channel is `peak`.
-    pub fn resolve(self, peak: f32) -> CubeFormat {
+    pub(crate) fn resolve(self, peak: f32) -> CubeFormat {
         match self {
             Self::Auto if peak > LARGEST_HALF => CubeFormat::Rgba32f,
             Self::Auto | Self::Rgba16f => CubeFormat::Rgba16f,
@@ -162,11 +162,11 @@ impl FormatChoice {
 }
 
 /// The largest value of a half float.
-pub const LARGEST_HALF: f32 = 65504.0;
+pub(crate) const LARGEST_HALF: f32 = 65504.0;
 
 impl CubeFormat {
     /// The codec's value.
-    pub fn texel_format(self) -> TexelFormat {
+    pub(crate) fn texel_format(self) -> TexelFormat {
         match self {
             Self::Rgba32f => TexelFormat::Rgba32F,
             Self::Rgba16f => TexelFormat::Rgba16F,
@@ -176,7 +176,7 @@ impl CubeFormat {
     }
 
     /// The format of the two-channel DFG table beside cubes of this format.
-    pub fn dfg_format(self) -> TexelFormat {
+    pub(crate) fn dfg_format(self) -> TexelFormat {
         if self == Self::Rgba32f { TexelFormat::Rg32F } else { TexelFormat::Rg16F }
     }
 }
@@ -184,7 +184,7 @@ impl CubeFormat {
 /// Filter of the irradiance forms in `sh.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum ShWindowChoice {
+pub(crate) enum ShWindowChoice {
     None,
     /// As wide as the bands exported
     Hann,
@@ -198,7 +198,7 @@ pub enum ShWindowChoice {
 
 /// A file of a bake that can be left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum OutputChoice {
+pub(crate) enum OutputChoice {
     Specular,
     Irradiance,
     Skybox,
@@ -208,11 +208,11 @@ pub enum OutputChoice {
 }
 
 /// The word of a choice, as the command line spells it.
-pub fn word(choice: impl ValueEnum) -> String {
+pub(crate) fn word(choice: impl ValueEnum) -> String {
     choice.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
 }
 
 /// The command line's word for a projection.
-pub fn layout_word(projection: Projection) -> String {
+pub(crate) fn layout_word(projection: Projection) -> String {
     LayoutChoice::value_variants().iter().find(|l| l.value() == projection).map_or_else(String::new, |l| word(*l))
 }

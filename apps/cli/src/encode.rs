@@ -1,6 +1,6 @@
 //! From baked lighting to the bytes of its texture files.
 
-use crate::choices::{CompressionChoice, CubeFormat, LARGEST_HALF};
+use crate::choices::{CompressionChoice, CubeFormat, LARGEST_HALF, word};
 use crate::record::SettingsRecord;
 use anyhow::{Context, Result};
 use lumisphere::bake::{BakedEnvironment, SpecularChain};
@@ -11,23 +11,23 @@ use lumisphere_codec::ktx2::{Faces, LevelTexels, Supercompression, Texture, enco
 use rayon::prelude::*;
 
 /// The prefiltered chain.
-pub const SPECULAR: &str = "specular.ktx2";
+pub(crate) const SPECULAR: &str = "specular.ktx2";
 /// The irradiance cube.
-pub const IRRADIANCE: &str = "irradiance.ktx2";
+pub(crate) const IRRADIANCE: &str = "irradiance.ktx2";
 /// The environment as a cube.
-pub const SKYBOX: &str = "skybox.ktx2";
+pub(crate) const SKYBOX: &str = "skybox.ktx2";
 /// The table of directional albedo.
-pub const DFG: &str = "dfg.ktx2";
+pub(crate) const DFG: &str = "dfg.ktx2";
 
 /// A file that is ready to be written.
-pub struct ReadyFile {
+pub(crate) struct ReadyFile {
     pub name: &'static str,
     pub content: String,
     pub encoded: Encoded,
 }
 
 /// Whether any texel is beyond what half floats hold, and the largest one.
-pub fn peak(baked: &BakedEnvironment) -> f32 {
+pub(crate) fn peak(baked: &BakedEnvironment) -> f32 {
     let chain = baked.specular.iter().flat_map(|s| s.levels.levels());
     let cubes: Vec<&Environment> = chain.chain(&baked.irradiance).chain(&baked.skybox).collect();
     let largest = |cube: &&Environment| {
@@ -40,7 +40,7 @@ pub fn peak(baked: &BakedEnvironment) -> f32 {
 }
 
 /// Note for the user where half floats were not enough.
-pub fn format_note(format: CubeFormat, peak: f32) -> Option<String> {
+pub(crate) fn format_note(format: CubeFormat, peak: f32) -> Option<String> {
     (format == CubeFormat::Rgba32f && peak > LARGEST_HALF).then(|| {
         format!("stored as rgba32f: the brightest texel, {peak:.0}, is above the {LARGEST_HALF} of half floats")
     })
@@ -54,7 +54,7 @@ enum Content<'a> {
 }
 
 /// Encodes the textures that `wanted` names, in parallel.
-pub fn textures(
+pub(crate) fn textures(
     baked: &BakedEnvironment,
     settings: &SettingsRecord,
     wanted: impl Fn(&str) -> bool,
@@ -77,7 +77,7 @@ impl Content<'_> {
             Self::Chain(chain) => {
                 let content = "radiance prefiltered for specular reflection".to_owned();
                 let roughness: Vec<String> = chain.roughness.iter().map(|p| format!("{}", p.value())).collect();
-                let lobe = format!("{:?} {:?}", settings.lobe, settings.weight);
+                let lobe = format!("{} {}", word(settings.lobe), word(settings.weight));
                 let keys = [
                     ("lumisphere.content", content.as_str()),
                     ("lumisphere.lobe", lobe.as_str()),
@@ -111,7 +111,7 @@ fn dfg(table: &DfgTable, settings: &SettingsRecord, content: &str) -> Result<Enc
     let size = table.size();
     let texture =
         Texture { width: size, height: size, faces: Faces::One, levels: vec![LevelTexels::Rg(table.texels())] };
-    let masking = format!("{:?}", table.masking());
+    let masking = word(settings.masking);
     let keys = [("lumisphere.content", content), ("lumisphere.masking", masking.as_str())];
     Ok(encode(&texture, settings.format.dfg_format(), compression(settings.compress), &keys)?)
 }

@@ -16,22 +16,30 @@ use std::path::{Path, PathBuf};
 
 /// Where an environment comes from.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Source {
+pub(crate) enum Source {
     File(PathBuf),
     Builtin(BuiltinSource),
 }
 
 impl Source {
     /// Tells a built-in environment from a path.
-    pub fn parse(text: &str) -> Result<Self> {
+    pub(crate) fn parse(text: &str) -> Result<Self> {
         match text.strip_prefix(PREFIX) {
             Some(rest) => BuiltinSource::parse(rest).map(Self::Builtin).with_context(|| text.to_owned()),
             None => Ok(Self::File(PathBuf::from(text))),
         }
     }
 
+    /// What an error about it starts with: the path, or the built-in environment's name with its prefix.
+    pub(crate) fn place(&self) -> String {
+        match self {
+            Self::File(path) => path.display().to_string(),
+            Self::Builtin(builtin) => format!("{PREFIX}{}", builtin.environment.name()),
+        }
+    }
+
     /// A short name: the file's without its extension, or the built-in environment's.
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         match self {
             Self::File(path) => {
                 path.file_stem().map_or_else(|| "environment".into(), |s| s.to_string_lossy().into_owned())
@@ -43,7 +51,7 @@ impl Source {
 
 /// What is done to a picture between decoding and baking; kept in `bake.json` so that `verify` can do the same.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Adjustments {
+pub(crate) struct Adjustments {
     /// Overrides what the file says and what its shape suggests.
     pub layout: Option<LayoutChoice>,
     pub repair: Repair,
@@ -55,7 +63,7 @@ pub struct Adjustments {
 }
 
 /// A picture as it came, laid over the sphere.
-pub struct Loaded {
+pub(crate) struct Loaded {
     pub environment: Environment,
     /// What the picture was, in words: "Radiance HDR".
     pub format: String,
@@ -64,7 +72,7 @@ pub struct Loaded {
 }
 
 /// An environment ready to be baked.
-pub struct Prepared {
+pub(crate) struct Prepared {
     pub environment: Environment,
     pub format: String,
     pub notes: Vec<String>,
@@ -73,15 +81,15 @@ pub struct Prepared {
     pub statistics: Statistics,
 }
 
-/// Reads or makes an environment.
-pub fn load(source: &Source, layout: Option<LayoutChoice>, limits: Limits, timings: &Timings) -> Result<Loaded> {
+/// Reads or makes an environment; the caller puts its name in front of an error.
+pub(crate) fn load(source: &Source, layout: Option<LayoutChoice>, limits: Limits, timings: &Timings) -> Result<Loaded> {
     match source {
         Source::Builtin(builtin) => {
             timings.begin("render");
             let environment = builtin.environment.render(builtin.height);
             Ok(Loaded { environment, format: "built in".to_owned(), notes: Vec::new() })
         }
-        Source::File(path) => load_file(path, layout, limits, timings).with_context(|| path.display().to_string()),
+        Source::File(path) => load_file(path, layout, limits, timings),
     }
 }
 
@@ -98,7 +106,7 @@ fn load_file(path: &Path, layout: Option<LayoutChoice>, limits: Limits, timings:
 }
 
 /// The whole file, unless it alone is larger than what may be decoded.
-pub fn read_file(path: &Path, limits: Limits) -> Result<Vec<u8>> {
+pub(crate) fn read_file(path: &Path, limits: Limits) -> Result<Vec<u8>> {
     let metadata = std::fs::metadata(path).map_err(|error| missing(path, error))?;
     if metadata.is_dir() {
         bail!("found a folder, expected a file");
@@ -145,7 +153,7 @@ fn unknown_layout(width: usize, height: usize) -> anyhow::Error {
 }
 
 /// Repairs, adjusts and measures, once each.
-pub fn prepare(loaded: Loaded, adjustments: &Adjustments, timings: &Timings) -> Result<Prepared> {
+pub(crate) fn prepare(loaded: Loaded, adjustments: &Adjustments, timings: &Timings) -> Result<Prepared> {
     let Loaded { mut environment, format, notes } = loaded;
     timings.begin("repair");
     let repairs = sanitise(&mut environment, adjustments.repair.policy())?;
@@ -165,6 +173,6 @@ pub fn prepare(loaded: Loaded, adjustments: &Adjustments, timings: &Timings) -> 
 }
 
 /// "2048x1024 lat-long".
-pub fn grid_text(grid: Grid) -> String {
+pub(crate) fn grid_text(grid: Grid) -> String {
     format!("{}x{} {}", grid.width(), grid.height(), layout_word(grid.projection()))
 }

@@ -36,13 +36,13 @@ impl Staged {
 
 /// The place where files wait until all are complete.
 #[derive(Clone, Default)]
-pub struct Stage {
+pub(crate) struct Stage {
     staged: Arc<Mutex<Staged>>,
 }
 
 impl Stage {
     /// An empty stage that is cleared when the program is interrupted or told to end.
-    pub fn cleared_on_interrupt() -> Result<Self> {
+    pub(crate) fn cleared_on_interrupt() -> Result<Self> {
         let stage = Self::default();
         let shared = stage.clone();
         ctrlc::set_handler(move || {
@@ -56,7 +56,7 @@ impl Stage {
     }
 
     /// Writes files under temporary names in `folder`, which is made if it is not there.
-    pub fn write(&self, folder: &Path, files: &[(&str, &[u8])]) -> Result<()> {
+    pub(crate) fn write(&self, folder: &Path, files: &[(&str, &[u8])]) -> Result<()> {
         self.make_folder(folder).with_context(|| folder.display().to_string())?;
         for (name, bytes) in files {
             let path = folder.join(name);
@@ -66,7 +66,7 @@ impl Stage {
     }
 
     /// Gives every file its name.
-    pub fn publish(&self) -> Result<()> {
+    pub(crate) fn publish(&self) -> Result<()> {
         let mut staged = self.lock();
         while !staged.files.is_empty() {
             let (file, path) = staged.files.remove(0);

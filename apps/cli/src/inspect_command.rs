@@ -14,7 +14,7 @@ use lumisphere_codec::ktx2::{self, Faces, KtxTexture};
 use lumisphere_codec::{FileFormat, Limits, decode_picture, detect};
 
 /// Shows what is in a file.
-pub fn run(args: &InspectArgs) -> Result<()> {
+pub(crate) fn run(args: &InspectArgs) -> Result<()> {
     let limits = Limits { max_bytes: args.common.max_memory };
     let report = inspect(args, limits).with_context(|| args.file.display().to_string())?;
     if args.json { output::json(&report) } else { output::text(&report.text(&args.file)) }
@@ -51,7 +51,7 @@ fn picture_report(picture: Picture, format: String, file_bytes: usize, layout: O
     let projection = known.unwrap_or(Projection::LatLong);
     let face_height = if projection == Projection::Cube { height / 6 } else { height };
     let environment = Environment::new(Grid::new(projection, width, face_height)?, picture.texels)?;
-    let statistics: StatisticsRecord = (&statistics(&environment)).into();
+    let statistics = Box::new(StatisticsRecord::from(&statistics(&environment)));
     Ok(Report::Picture {
         format,
         file_bytes,
@@ -62,7 +62,7 @@ fn picture_report(picture: Picture, format: String, file_bytes: usize, layout: O
             (Some(_), ..) => "--layout",
             (None, true, _) => "the file",
             (None, false, Some(_)) => "the shape",
-            (None, false, None) => "nothing; name it with --layout",
+            (None, false, None) => "nothing: name it with --layout",
         },
         statistics,
         notes: picture.notes,

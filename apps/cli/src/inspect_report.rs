@@ -10,7 +10,7 @@ use std::path::Path;
 /// A file's content.
 #[derive(Debug, Serialize)]
 #[serde(tag = "type", rename_all = "kebab-case")]
-pub enum Report {
+pub(crate) enum Report {
     /// One picture.
     Picture {
         format: String,
@@ -20,7 +20,7 @@ pub enum Report {
         /// `None`: the shape says nothing; the means over the sphere are then those of a lat-long.
         layout: Option<String>,
         layout_from: &'static str,
-        statistics: StatisticsRecord,
+        statistics: Box<StatisticsRecord>,
         notes: Vec<String>,
     },
     /// A KTX2 texture.
@@ -31,7 +31,7 @@ pub enum Report {
 
 /// A KTX2 texture.
 #[derive(Debug, Serialize)]
-pub struct TextureReport {
+pub(crate) struct TextureReport {
     pub format: String,
     pub file_bytes: usize,
     pub cube: bool,
@@ -43,7 +43,7 @@ pub struct TextureReport {
 
 /// One level of a texture.
 #[derive(Debug, Serialize)]
-pub struct LevelReport {
+pub(crate) struct LevelReport {
     pub lod: usize,
     pub width: usize,
     pub height: usize,
@@ -52,7 +52,7 @@ pub struct LevelReport {
 
 impl Report {
     /// For people.
-    pub fn text(&self, path: &Path) -> String {
+    pub(crate) fn text(&self, path: &Path) -> String {
         let mut text = format!("{HEADING}{}{HEADING:#}\n", path.display());
         // Writing to a String cannot fail.
         let _ = match self {

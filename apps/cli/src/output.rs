@@ -5,24 +5,24 @@ use serde::Serialize;
 use std::io::{ErrorKind, Write};
 
 /// Green, where the terminal has it.
-pub const GOOD: anstyle::Style = anstyle::AnsiColor::Green.on_default();
+pub(crate) const GOOD: anstyle::Style = anstyle::AnsiColor::Green.on_default();
 /// Red, where the terminal has it.
-pub const BAD: anstyle::Style = anstyle::AnsiColor::Red.on_default().bold();
+pub(crate) const BAD: anstyle::Style = anstyle::AnsiColor::Red.on_default().bold();
 /// For headings.
-pub const HEADING: anstyle::Style = anstyle::Style::new().bold();
+pub(crate) const HEADING: anstyle::Style = anstyle::Style::new().bold();
 
 /// Text that may hold styles; they are dropped where nobody wants them (pipes, `NO_COLOR`).
-pub fn text(text: &str) -> Result<()> {
+pub(crate) fn text(text: &str) -> Result<()> {
     finish(anstream::stdout().write_all(text.as_bytes()))
 }
 
 /// Bytes as they are.
-pub fn bytes(bytes: &[u8]) -> Result<()> {
+pub(crate) fn bytes(bytes: &[u8]) -> Result<()> {
     finish(std::io::stdout().write_all(bytes))
 }
 
 /// One JSON object on one or more lines.
-pub fn json(value: &impl Serialize) -> Result<()> {
+pub(crate) fn json(value: &impl Serialize) -> Result<()> {
     let mut text = serde_json::to_vec_pretty(value)?;
     text.push(b'\n');
     bytes(&text)
@@ -37,7 +37,7 @@ fn finish(result: std::io::Result<()>) -> Result<()> {
 }
 
 /// The chain of causes on one line.
-pub fn error(error: &anyhow::Error) {
+pub(crate) fn error(error: &anyhow::Error) {
     let message = format!("{error:#}");
     let line: Vec<&str> = message.split(['\n', '\r']).map(str::trim).filter(|l| !l.is_empty()).collect();
     // Where even stderr is closed there is nobody left to tell.
@@ -45,7 +45,7 @@ pub fn error(error: &anyhow::Error) {
 }
 
 /// "4.2 MiB".
-pub fn size_text(bytes: usize) -> String {
+pub(crate) fn size_text(bytes: usize) -> String {
     match bytes {
         0..1024 => format!("{bytes} B"),
         1024..1_048_576 => format!("{:.1} KiB", bytes as f64 / 1024.0),
@@ -54,7 +54,7 @@ pub fn size_text(bytes: usize) -> String {
 }
 
 /// A figure of a picture with four significant digits.
-pub fn figure(value: f64) -> String {
+pub(crate) fn figure(value: f64) -> String {
     let magnitude = value.abs();
     if value == 0.0 {
         "0".to_owned()

@@ -6,14 +6,14 @@ use std::time::Duration;
 
 /// Whether a bar may be drawn.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Show {
+pub(crate) enum Show {
     /// On stderr, if that is a terminal.
     OnTerminal,
     Never,
 }
 
 /// A bar that moves by one for each step.
-pub fn bar(steps: u64, show: Show) -> ProgressBar {
+pub(crate) fn bar(steps: u64, show: Show) -> ProgressBar {
     let target = if show == Show::Never { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let bar = ProgressBar::with_draw_target(Some(steps), target);
     if let Ok(style) = ProgressStyle::with_template("{bar:32} {pos}/{len} {msg}") {
@@ -24,7 +24,7 @@ pub fn bar(steps: u64, show: Show) -> ProgressBar {
 }
 
 /// What a step is called.
-pub fn step_name(step: Step) -> String {
+pub(crate) fn step_name(step: Step) -> String {
     match step {
         Step::Prepare => "prepare".to_owned(),
         Step::Skybox => "skybox".to_owned(),

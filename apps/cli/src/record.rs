@@ -15,15 +15,15 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Name of the file.
-pub const FILE: &str = "bake.json";
+pub(crate) const FILE: &str = "bake.json";
 /// What `kind` says.
-pub const KIND: &str = "lumisphere bake";
+pub(crate) const KIND: &str = "lumisphere bake";
 /// Raised when a reader of an older number would misread the file.
-pub const FORMAT_VERSION: u32 = 1;
+pub(crate) const FORMAT_VERSION: u32 = 1;
 
 /// The whole file.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Record {
+pub(crate) struct Record {
     pub kind: String,
     pub format_version: u32,
     /// Version of the program that baked.
@@ -42,7 +42,7 @@ pub struct Record {
 
 /// The picture that was baked.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct InputRecord {
+pub(crate) struct InputRecord {
     /// As on the command line.
     pub environment: String,
     pub format: String,
@@ -58,7 +58,7 @@ pub struct InputRecord {
 
 impl InputRecord {
     /// Of a prepared environment.
-    pub fn new(environment: &str, prepared: &Prepared) -> Self {
+    pub(crate) fn new(environment: &str, prepared: &Prepared) -> Self {
         let grid = prepared.environment.grid();
         Self {
             environment: environment.to_owned(),
@@ -75,7 +75,7 @@ impl InputRecord {
 
 /// Texels that were no radiance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct RepairsRecord {
+pub(crate) struct RepairsRecord {
     pub nan: usize,
     pub positive_infinite: usize,
     pub negative_infinite: usize,
@@ -93,7 +93,7 @@ impl From<Repairs> for RepairsRecord {
 
 impl RepairsRecord {
     /// "2 NaN, 1 negative texels", or `None` if nothing was found.
-    pub fn text(&self) -> Option<String> {
+    pub(crate) fn text(&self) -> Option<String> {
         let kinds = [
             (self.nan, "NaN"),
             (self.positive_infinite, "+Inf"),
@@ -108,7 +108,7 @@ impl RepairsRecord {
 
 /// Figures of the picture; radiance in the picture's own unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StatisticsRecord {
+pub(crate) struct StatisticsRecord {
     pub red: ChannelRecord,
     pub green: ChannelRecord,
     pub blue: ChannelRecord,
@@ -125,7 +125,7 @@ pub struct StatisticsRecord {
 
 /// Figures of a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct ChannelRecord {
+pub(crate) struct ChannelRecord {
     pub min: f64,
     pub max: f64,
     /// Each texel counting the same.
@@ -142,7 +142,7 @@ impl From<ChannelStatistics> for ChannelRecord {
 
 /// The texel of the highest luminance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct BrightestRecord {
+pub(crate) struct BrightestRecord {
     pub direction: [f64; 3],
     pub luminance: f64,
     /// Of the luminance of the whole sphere.
@@ -172,7 +172,7 @@ impl From<&Statistics> for StatisticsRecord {
 
 /// The settings of the bake.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct SettingsRecord {
+pub(crate) struct SettingsRecord {
     pub size: usize,
     pub level_count: usize,
     pub skybox_size: usize,
@@ -197,7 +197,7 @@ pub struct SettingsRecord {
 
 impl SettingsRecord {
     /// From the command line, with the format that was decided.
-    pub fn new(args: &BakeArgs, settings: &BakeSettings, format: CubeFormat) -> Self {
+    pub(crate) fn new(args: &BakeArgs, settings: &BakeSettings, format: CubeFormat) -> Self {
         Self {
             size: args.chain.size,
             level_count: settings.levels(),
@@ -221,7 +221,7 @@ impl SettingsRecord {
     }
 
     /// The library's settings.
-    pub fn bake_settings(&self, outputs: Outputs) -> BakeSettings {
+    pub(crate) fn bake_settings(&self, outputs: Outputs) -> BakeSettings {
         BakeSettings {
             size: self.size,
             level_count: Some(self.level_count),
@@ -247,7 +247,7 @@ impl SettingsRecord {
 
 /// One level of the chain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct LevelRecord {
+pub(crate) struct LevelRecord {
     pub lod: usize,
     pub size: usize,
     pub perceptual_roughness: f64,
@@ -256,7 +256,7 @@ pub struct LevelRecord {
 
 impl LevelRecord {
     /// The levels that settings ask for.
-    pub fn all(settings: &BakeSettings) -> Vec<Self> {
+    pub(crate) fn all(settings: &BakeSettings) -> Vec<Self> {
         let level = |(lod, p): (usize, lumisphere::bsdf::PerceptualRoughness)| Self {
             lod,
             size: (settings.size >> lod).max(1),
@@ -269,7 +269,7 @@ impl LevelRecord {
 
 /// One file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FileRecord {
+pub(crate) struct FileRecord {
     pub content: String,
     pub bytes: usize,
     /// Values that the format could not hold.
@@ -278,7 +278,7 @@ pub struct FileRecord {
 
 impl Record {
     /// Reads the record of a bake.
-    pub fn read(directory: &Path) -> Result<Self> {
+    pub(crate) fn read(directory: &Path) -> Result<Self> {
         let path = directory.join(FILE);
         let read = || -> Result<Self> {
             let record: Self = serde_json::from_slice(&std::fs::read(&path)?)?;

@@ -8,15 +8,15 @@ use lumisphere::sh::{ShRgb, Window, WindowShape};
 use serde::{Deserialize, Serialize};
 
 /// Name of the file.
-pub const FILE: &str = "sh.json";
+pub(crate) const FILE: &str = "sh.json";
 /// What `kind` says.
-pub const KIND: &str = "lumisphere spherical harmonics";
+pub(crate) const KIND: &str = "lumisphere spherical harmonics";
 /// Bands from which the packed forms are made.
 const PACKED_BANDS: usize = 3;
 
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ShFile {
+pub(crate) struct ShFile {
     pub kind: String,
     /// Basis, order, frame.
     pub convention: String,
@@ -35,18 +35,18 @@ pub struct ShFile {
 }
 
 /// RGB coefficients with a line on what they are.
-pub type Coefficients = Named<Vec<[f64; 3]>>;
+pub(crate) type Coefficients = Named<Vec<[f64; 3]>>;
 
 /// Values with a line on what they are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Named<T> {
+pub(crate) struct Named<T> {
     pub convention: String,
     pub values: T,
 }
 
 /// A window in numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct WindowRecord {
+pub(crate) struct WindowRecord {
     pub choice: ShWindowChoice,
     /// What every band of the irradiance forms was multiplied by.
     pub band_factors: Vec<f64>,
@@ -58,7 +58,7 @@ fn named<T>(convention: &str, values: T) -> Named<T> {
 
 impl ShFile {
     /// All forms of a radiance.
-    pub fn new(radiance: &ShRgb, choice: ShWindowChoice) -> Result<Self> {
+    pub(crate) fn new(radiance: &ShRgb, choice: ShWindowChoice) -> Result<Self> {
         let window = window(radiance, choice)?;
         // Only three bands can be held to be nowhere negative.
         let bands = if choice == ShWindowChoice::Nonnegative { PACKED_BANDS } else { radiance.band_count() };
@@ -95,7 +95,7 @@ impl ShFile {
     }
 
     /// Reads what [`Self::new`] made.
-    pub fn parse(bytes: &[u8]) -> Result<Self> {
+    pub(crate) fn parse(bytes: &[u8]) -> Result<Self> {
         let file: Self = serde_json::from_slice(bytes)?;
         if file.kind != KIND {
             bail!("found {:?}, expected {KIND:?}", file.kind);
@@ -104,7 +104,7 @@ impl ShFile {
     }
 
     /// The radiance of the file.
-    pub fn radiance(&self) -> Result<ShRgb> {
+    pub(crate) fn radiance(&self) -> Result<ShRgb> {
         Ok(ShRgb::new(self.band_count, self.radiance.values.clone())?)
     }
 }

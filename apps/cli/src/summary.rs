@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::Duration;
 
 /// Input, levels, files and time, in that order.
-pub fn of_bake(record: &Record, directory: &Path, total: Duration, note: Option<&str>) -> String {
+pub(crate) fn of_bake(record: &Record, directory: &Path, total: Duration, note: Option<&str>) -> String {
     let mut text = String::new();
     // Writing to a String cannot fail.
     let _ = input(&mut text, record);

@@ -8,7 +8,7 @@ use std::str::FromStr;
 /// `--repair`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Repair {
+pub(crate) enum Repair {
     Neighbours,
     Zero,
     Clamp(f32),
@@ -17,7 +17,7 @@ pub enum Repair {
 
 impl Repair {
     /// The library's value.
-    pub fn policy(self) -> RepairPolicy {
+    pub(crate) fn policy(self) -> RepairPolicy {
         match self {
             Self::Neighbours => RepairPolicy::Neighbours,
             Self::Zero => RepairPolicy::Zero,
@@ -49,7 +49,7 @@ impl FromStr for Repair {
 /// `--lower-hemisphere`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum LowerHemisphere {
+pub(crate) enum LowerHemisphere {
     Keep,
     Fill([f32; 3]),
 }
@@ -75,7 +75,7 @@ impl FromStr for LowerHemisphere {
 
 /// `--rotate`: degrees.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct YawPitchRoll {
+pub(crate) struct YawPitchRoll {
     pub yaw: f64,
     pub pitch: f64,
     pub roll: f64,
@@ -83,7 +83,7 @@ pub struct YawPitchRoll {
 
 impl YawPitchRoll {
     /// The rotation; exactly none for three zeros.
-    pub fn rotation(self) -> Rotation {
+    pub(crate) fn rotation(self) -> Rotation {
         if [self.yaw, self.pitch, self.roll] == [0.0; 3] {
             return Rotation::IDENTITY;
         }
@@ -106,17 +106,17 @@ impl FromStr for YawPitchRoll {
 }
 
 /// A number in [0, 1].
-pub fn parse_unit(text: &str) -> Result<f64, String> {
+pub(crate) fn parse_unit(text: &str) -> Result<f64, String> {
     number(text).filter(|u| (0.0..=1.0).contains(u)).ok_or_else(|| "expected a number from 0 to 1".to_owned())
 }
 
 /// A number that is not infinite.
-pub fn parse_finite(text: &str) -> Result<f64, String> {
+pub(crate) fn parse_finite(text: &str) -> Result<f64, String> {
     number(text).ok_or_else(|| "expected a number".to_owned())
 }
 
 /// A finite number above 0.
-pub fn parse_positive(text: &str) -> Result<f64, String> {
+pub(crate) fn parse_positive(text: &str) -> Result<f64, String> {
     number(text).filter(|n| *n > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
 }
 
@@ -125,7 +125,7 @@ fn number(text: &str) -> Option<f64> {
 }
 
 /// Bytes: a number with an optional unit; kB, MB, GB are powers of 1000, KiB, MiB, GiB of 1024.
-pub fn parse_bytes(text: &str) -> Result<u64, String> {
+pub(crate) fn parse_bytes(text: &str) -> Result<u64, String> {
     const UNITS: [(&str, f64); 10] = [
         ("", 1.0),
         ("b", 1.0),

@@ -19,7 +19,7 @@ use lumisphere_codec::{Limits, pack};
 use std::path::Path;
 
 /// Measures a bake; false if an error is over the contract.
-pub fn run(args: &VerifyArgs) -> Result<bool> {
+pub(crate) fn run(args: &VerifyArgs) -> Result<bool> {
     let timings = Timings::start();
     let record = Record::read(&args.directory)?;
     let source = Source::parse(&args.environment)?;
@@ -30,9 +30,10 @@ pub fn run(args: &VerifyArgs) -> Result<bool> {
 
     let baked = files.baked(&settings)?;
     let dfg = files.dfg(&record.settings)?;
-    let loaded = load(&source, record.adjustments.layout, limits, &timings)?;
-    let environment =
-        prepare(loaded, &record.adjustments, &timings).with_context(|| args.environment.clone())?.environment;
+    let environment = load(&source, record.adjustments.layout, limits, &timings)
+        .and_then(|loaded| prepare(loaded, &record.adjustments, &timings))
+        .with_context(|| source.place())?
+        .environment;
     let quantise = quantiser(record.settings.format.texel_format());
     let verify_settings = VerifySettings { texels: args.texels, quantise: &quantise };
     let bar = bar(settings.levels() as u64 + 2, if args.json { Show::Never } else { Show::OnTerminal });

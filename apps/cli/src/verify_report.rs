@@ -10,7 +10,7 @@ use std::time::Duration;
 
 /// Everything that was compared.
 #[derive(Debug, Serialize)]
-pub struct Report {
+pub(crate) struct Report {
     pub passed: bool,
     pub levels: Vec<LevelRow>,
     pub irradiance: Option<LevelRow>,
@@ -21,7 +21,7 @@ pub struct Report {
 
 /// One level.
 #[derive(Debug, Serialize)]
-pub struct LevelRow {
+pub(crate) struct LevelRow {
     pub lod: usize,
     pub size: usize,
     pub perceptual_roughness: f64,
@@ -38,7 +38,7 @@ pub struct LevelRow {
 
 /// One figure against its limit.
 #[derive(Debug, Serialize)]
-pub struct ErrorRow {
+pub(crate) struct ErrorRow {
     pub error: f64,
     pub limit: f64,
     pub passed: bool,
@@ -46,7 +46,7 @@ pub struct ErrorRow {
 
 /// The DFG table: absolute error.
 #[derive(Debug, Serialize)]
-pub struct DfgReport {
+pub(crate) struct DfgReport {
     pub error: f64,
     /// The contract's limit.
     pub limit: f64,
@@ -57,7 +57,7 @@ pub struct DfgReport {
 
 impl DfgReport {
     /// Judges the largest error of a table stored in `format`.
-    pub fn new(error: f64, format: TexelFormat) -> Self {
+    pub(crate) fn new(error: f64, format: TexelFormat) -> Self {
         // Values in [1/2, 1] have 11 significant bits as halves, 24 as floats.
         let format_allowance = if format == TexelFormat::Rg16F { 2f64.powi(-12) } else { 2f64.powi(-25) };
         let limit = VerifyReport::DFG_LIMIT;
@@ -85,7 +85,7 @@ impl From<&LevelReport> for LevelRow {
 /// Whether the bake has spherical harmonics to judge is for the caller to know.
 impl Report {
     /// Judges what was measured.
-    pub fn new(measured: &VerifyReport, has_sh: bool, dfg: Option<DfgReport>) -> Self {
+    pub(crate) fn new(measured: &VerifyReport, has_sh: bool, dfg: Option<DfgReport>) -> Self {
         let levels: Vec<LevelRow> = measured.levels.iter().map(LevelRow::from).collect();
         let irradiance = measured.irradiance.as_ref().map(LevelRow::from);
         let (error, limit) = (measured.sh_error, VerifyReport::SH_LIMIT);
@@ -96,7 +96,7 @@ impl Report {
     }
 
     /// For people.
-    pub fn text(&self, format: CubeFormat, total: Duration) -> String {
+    pub(crate) fn text(&self, format: CubeFormat, total: Duration) -> String {
         let mut text = String::new();
         // Writing to a String cannot fail.
         let _ = self.write(&mut text, format, total);

@@ -5,6 +5,7 @@ use crate::monte_carlo::MonteCarlo;
 use crate::quadrature::TexelSum;
 use crate::spectral::{self, BAND, ZonalKernel};
 use crate::split::HighPart;
+use crate::suns::Suns;
 use crate::{BakeError, BakeSettings, Engine, source};
 use lumisphere_bsdf::{Alpha, DfgTable, Lobe, LobeShape, LobeWeight, PerceptualRoughness};
 use lumisphere_image::{CubeChain, Environment, Rgb, resample};
@@ -79,14 +80,16 @@ pub fn bake(
     let outputs = settings.outputs;
     let mirror = outputs.specular.then(|| mirror(&panorama, settings, progress)).transpose()?;
     let skybox = outputs.skybox.then(|| skybox(&panorama, mirror.as_ref(), settings, progress)).transpose()?;
-    let source = source::refined(panorama, settings)?;
+    let mut source = source::refined(panorama, settings)?;
     progress(Step::Transform);
+    let suns = Suns::take_for(settings.engine, &mut source);
     let width = source.grid().width();
     let rows = FourierRows::new(source.texels(), width, BAND, RowWeights::TexelSolidAngle);
     let engine = LevelBaker::new(source, settings)?;
     let spectrum = Spectrum::from_rows(rows);
-    let sh = ShRotation::new(&settings.rotation, settings.sh_bands).apply(&spectrum.to_sh(settings.sh_bands));
-    let mut baker = Levels { engine, spectrum: &spectrum };
+    let sh = suns.add_harmonics(spectrum.to_sh(settings.sh_bands))?;
+    let sh = ShRotation::new(&settings.rotation, settings.sh_bands).apply(&sh);
+    let mut baker = Levels { engine, spectrum: &spectrum, suns: &suns };
     let irradiance = outputs.irradiance.then(|| irradiance(&mut baker, settings, progress)).transpose()?;
     let specular = mirror.map(|mirror| specular(&mut baker, mirror, settings, progress)).transpose()?;
     let skybox = match (skybox, &specular) {
@@ -161,6 +164,7 @@ fn specular(
 struct Levels<'a> {
     engine: LevelBaker,
     spectrum: &'a Spectrum,
+    suns: &'a Suns,
 }
 
 /// What an engine keeps from level to level.
@@ -201,15 +205,18 @@ impl Levels<'_> {
         match &mut self.engine {
             LevelBaker::Spectral { source, high } => {
                 let zonal = ZonalKernel::of(lobe, 2 * BAND)?;
-                if !zonal.outruns_band() {
-                    return Ok(spectral::level(self.spectrum, &zonal, directions));
-                }
-                // The source gives its memory to what is left of it without its low bands.
-                if let Some(source) = source.take() {
-                    *high = Some(HighPart::new(source, self.spectrum));
-                }
-                let Some(high) = high else { unreachable!("the source was kept for the levels that are split") };
-                Ok(high.level(self.spectrum, lobe, &zonal, directions))
+                let mut sums = if zonal.outruns_band() {
+                    // The source gives its memory to what is left of it without its low bands.
+                    if let Some(source) = source.take() {
+                        *high = Some(HighPart::new(source, self.spectrum));
+                    }
+                    let Some(high) = high else { unreachable!("the source was kept for the levels that are split") };
+                    high.sums(self.spectrum, lobe, &zonal, directions)
+                } else {
+                    spectral::sums(self.spectrum, &zonal, directions)
+                };
+                self.suns.add_lobe(lobe, zonal.integral, directions, &mut sums);
+                Ok(spectral::means(sums))
             }
             LevelBaker::MonteCarlo(engine) => Ok(engine.level(lobe, directions)),
             LevelBaker::Quadrature(source) => Ok(TexelSum::new(source).level(lobe, directions)),

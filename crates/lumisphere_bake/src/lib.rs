@@ -3,7 +3,7 @@
 //! Pure functions: no files, no printing, no clock. Follow one texel: [`bake()`] lays the environment on a lat-long grid
 //! (`source`), resamples level 0 by exact overlap, transforms the rest to spherical harmonics
 //! ([`lumisphere_sh::Spectrum`]), scales each band by the lobe's coefficient (`spectral`), adds for sharp lobes the
-//! near part of what the bands leave out (`split`), and returns to cube texels. [`verify()`] measures the outcome against the
+//! near part of what the bands leave out (`split`), adds the suns (`suns`), and returns to cube texels. [`verify()`] measures the outcome against the
 //! sum over every texel (`quadrature`).
 
 mod bake;
@@ -17,6 +17,7 @@ mod settings;
 mod source;
 mod spectral;
 mod split;
+mod suns;
 mod verify;
 
 pub use bake::{BakedEnvironment, Progress, SpecularChain, Step, bake};

@@ -102,9 +102,13 @@ pub(crate) fn unit_rows(spectrum: &Spectrum, kernel: &[f64], rows: usize) -> Vec
     (0..rows).into_par_iter().map(row).collect()
 }
 
-/// Levels of lobes that the band holds: the weighted mean over texels, exact up to the band.
-pub(crate) fn level(spectrum: &Spectrum, zonal: &ZonalKernel, directions: &CubeDirections) -> Vec<Rgb> {
+/// The sums over texels of a lobe that the band holds, exact up to the band.
+pub(crate) fn sums(spectrum: &Spectrum, zonal: &ZonalKernel, directions: &CubeDirections) -> Vec<[f64; 4]> {
     let kernel = &zonal.coefficients[..zonal.significant_band().min(spectrum.band())];
-    let sums = convolved_at(spectrum, kernel, TOLERANCE, directions);
+    convolved_at(spectrum, kernel, TOLERANCE, directions)
+}
+
+/// Sums over texels, and last of ones, to weighted means.
+pub(crate) fn means(sums: Vec<[f64; 4]>) -> Vec<Rgb> {
     sums.into_iter().map(|[r, g, b, unit]| [r, g, b].map(|v| (v / unit).max(0.0) as f32)).collect()
 }

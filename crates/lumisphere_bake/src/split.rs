@@ -19,8 +19,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Radius of the sum, in wavelengths over 2π of the band where L_high begins. The fade of half that width then has few
 /// bands beyond it.
 const REACH: f64 = 14.0;
-/// What interpolation may add to the image of a point light: a tenth of the contract for α < 0.015.
-const TOLERANCE: f64 = 1e-4;
+/// What interpolation may add to the image of a point light: a third of the contract for α < 0.015.
+const TOLERANCE: f64 = 3e-4;
 /// Degree of the radial fit; GGX needs 8, exp(-tan²) more.
 const RADIAL_DEGREE: usize = 24;
 
@@ -67,20 +67,20 @@ impl HighPart {
         Self { width, height, planes, rows, fade, radius: REACH / (0.5 * band as f64) }
     }
 
-    /// A level: the weighted mean over texels about each direction.
-    pub(crate) fn level(
+    /// The sums over texels about each direction, and last of ones.
+    pub(crate) fn sums(
         &self,
         spectrum: &Spectrum,
         lobe: &Lobe,
         zonal: &ZonalKernel,
         directions: &CubeDirections,
-    ) -> Vec<Rgb> {
+    ) -> Vec<[f64; 4]> {
         let kernel: Vec<f64> = self.fade.iter().zip(&zonal.coefficients).map(|(f, k)| f * k).collect();
         let low = spectral::convolved_at(spectrum, &kernel, TOLERANCE, directions);
         let radial = Radial::of(lobe, zonal.integral, self.radius);
         let texel = |(low, &d): (&[f64; 4], &Vec3)| {
             let high = self.near_sum(&radial, d);
-            [0, 1, 2].map(|c| ((low[c] + high[c]) / (low[3] + high[3])).max(0.0) as f32)
+            [0, 1, 2, 3].map(|c| low[c] + high[c])
         };
         low.par_iter().zip(&directions.directions).map(texel).collect()
     }

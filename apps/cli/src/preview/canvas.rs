@@ -1,7 +1,7 @@
 //! A picture of sRGB bytes to draw on.
 
 /// Rows of pixels, top first.
-pub struct Canvas {
+pub(crate) struct Canvas {
     width: usize,
     height: usize,
     pixels: Vec<[u8; 3]>,
@@ -9,24 +9,24 @@ pub struct Canvas {
 
 impl Canvas {
     /// One colour everywhere.
-    pub fn filled(width: usize, height: usize, colour: [u8; 3]) -> Self {
+    pub(crate) fn filled(width: usize, height: usize, colour: [u8; 3]) -> Self {
         Self { width, height, pixels: vec![colour; width * height] }
     }
 
-    pub fn width(&self) -> usize {
+    pub(crate) fn width(&self) -> usize {
         self.width
     }
-    pub fn height(&self) -> usize {
+    pub(crate) fn height(&self) -> usize {
         self.height
     }
 
     /// All samples, three a pixel.
-    pub fn samples(&self) -> &[u8] {
+    pub(crate) fn samples(&self) -> &[u8] {
         self.pixels.as_flattened()
     }
 
     /// Mixes a colour into a pixel; nothing happens outside the picture.
-    pub fn blend(&mut self, x: usize, y: usize, colour: [u8; 3], share: f32) {
+    pub(crate) fn blend(&mut self, x: usize, y: usize, colour: [u8; 3], share: f32) {
         if x < self.width && y < self.height {
             let pixel = &mut self.pixels[y * self.width + x];
             let mix =
@@ -36,7 +36,7 @@ impl Canvas {
     }
 
     /// Copies rows of `width` pixels to a place; what does not fit is cut.
-    pub fn paste(&mut self, (x, y): (usize, usize), width: usize, pixels: &[[u8; 3]]) {
+    pub(crate) fn paste(&mut self, (x, y): (usize, usize), width: usize, pixels: &[[u8; 3]]) {
         let fitting = width.min(self.width.saturating_sub(x));
         for (row, source) in pixels.chunks(width).enumerate().take(self.height.saturating_sub(y)) {
             let start = (y + row) * self.width + x;

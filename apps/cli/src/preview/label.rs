@@ -9,23 +9,30 @@ const SIZE: f32 = 14.0;
 
 /// Where text stands in relation to its anchor.
 #[derive(Clone, Copy)]
-pub enum Align {
+pub(crate) enum Align {
     Left,
     Centre,
     Right,
 }
 
 /// The typeface of the labels.
-pub struct Typeface(FontRef<'static>);
+pub(crate) struct Typeface(FontRef<'static>);
 
 impl Typeface {
     /// Hack, which ships with a dependency.
-    pub fn load() -> Result<Self> {
+    pub(crate) fn load() -> Result<Self> {
         FontRef::try_from_slice(epaint_default_fonts::HACK_REGULAR).map(Self).context("the built-in typeface")
     }
 
     /// Draws one line on a baseline.
-    pub fn draw(&self, canvas: &mut Canvas, text: &str, align: Align, (x, baseline): (usize, usize), colour: [u8; 3]) {
+    pub(crate) fn draw(
+        &self,
+        canvas: &mut Canvas,
+        text: &str,
+        align: Align,
+        (x, baseline): (usize, usize),
+        colour: [u8; 3],
+    ) {
         let font = self.0.as_scaled(PxScale::from(SIZE));
         let width: f32 = text.chars().map(|c| font.h_advance(self.0.glyph_id(c))).sum();
         let shift = match align {

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use tone::{Display, automatic_exposure};
 
 /// Name of the file.
-pub const FILE: &str = "preview.png";
+pub(crate) const FILE: &str = "preview.png";
 
 const WIDTH: usize = 1024;
 const MARGIN: usize = 32;
@@ -43,7 +43,7 @@ const FAINT_TEXT: [u8; 3] = [138, 138, 138];
 const WHITE: f32 = 0.8;
 
 /// The upper part, made before the bake takes the environment.
-pub struct Preview {
+pub(crate) struct Preview {
     display: Display,
     /// Stops.
     pub exposure: f64,
@@ -52,8 +52,9 @@ pub struct Preview {
 }
 
 impl Preview {
-    /// Takes the small picture of an environment and from it the exposure: log-average luminance becomes 18 % grey.
-    pub fn new(environment: &Environment, rotation: &Rotation, caption: String) -> Self {
+    /// Takes the small picture of an environment and from it the exposure: see
+    /// [`automatic_exposure`].
+    pub(crate) fn new(environment: &Environment, rotation: &Rotation, caption: String) -> Self {
         let small = Panorama::new(environment, rotation, PANORAMA_WIDTH);
         let exposure = automatic_exposure(small.weighted());
         let display = Display::new(exposure);
@@ -62,7 +63,7 @@ impl Preview {
     }
 
     /// Draws the whole picture.
-    pub fn finish(self, baked: &BakedEnvironment) -> Result<Encoded> {
+    pub(crate) fn finish(self, baked: &BakedEnvironment) -> Result<Encoded> {
         let tiles = tiles(baked);
         let rows = tiles.len().div_ceil(PER_ROW).max(1);
         let per_row = tiles.len().div_ceil(rows).max(1);

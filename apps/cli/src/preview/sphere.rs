@@ -8,7 +8,7 @@ use lumisphere::sphere::Vec3;
 ///
 /// `radiance` gives the light that leaves the ball at a normal towards the camera; it is asked `samples`² times a pixel. The
 /// edge is smooth by the distance of the pixel's centre from it.
-pub fn draw(
+pub(crate) fn draw(
     size: usize,
     samples: usize,
     display: &Display,
@@ -43,7 +43,7 @@ fn normal(right: f64, up: f64) -> Vec3 {
 }
 
 /// Where a mirror of this normal sends the camera's look: +Z in the middle of the ball, -Z at its rim.
-pub fn reflected(normal: Vec3) -> Vec3 {
+pub(crate) fn reflected(normal: Vec3) -> Vec3 {
     let twice = 2.0 * normal[2];
     [twice * normal[0], twice * normal[1], twice * normal[2] - 1.0]
 }

@@ -5,13 +5,17 @@ use lumisphere::image::{Rgb, luminance};
 /// Log-average luminance is shown as this: the middle grey of a photograph (E. Reinhard et al., "Photographic Tone
 /// Reproduction for Digital Images", SIGGRAPH 2002, §2).
 const MIDDLE_GREY: f64 = 0.18;
+/// The mean luminance is shown as no more than this: where a few lights outshine dark surroundings, middle grey for the
+/// surroundings would make all that is lit white.
+const BRIGHTEST_MEAN: f64 = 0.5;
 /// Darker texels count as this part of the mean luminance: black ones would drag the logarithm to -∞.
 const DARKEST: f64 = 1e-3;
 /// Entries of the table of the transfer function: its steepest step is 0.4 codes.
 const TABLE_SIZE: usize = 8192;
 
-/// Exposure in stops that brings the log-average luminance of weighted texels to middle grey; 0 for a black picture.
-pub fn automatic_exposure(texels: impl Iterator<Item = (Rgb, f64)> + Clone) -> f64 {
+/// Exposure in stops that brings the log-average luminance of weighted texels to middle grey, or their mean to
+/// [`BRIGHTEST_MEAN`] if that is less; 0 for a black picture.
+pub(crate) fn automatic_exposure(texels: impl Iterator<Item = (Rgb, f64)> + Clone) -> f64 {
     let sum = |f: &dyn Fn(f64) -> f64| {
         texels
             .clone()
@@ -23,36 +27,36 @@ pub fn automatic_exposure(texels: impl Iterator<Item = (Rgb, f64)> + Clone) -> f
         return 0.0;
     }
     let (logs, _) = sum(&|y| y.max(DARKEST * mean).ln());
-    (MIDDLE_GREY / (logs / area).exp()).log2()
+    (MIDDLE_GREY / (logs / area).exp()).min(BRIGHTEST_MEAN / mean).log2()
 }
 
 /// Exposes and tone-maps radiance, then encodes it as sRGB bytes.
-pub struct Display {
+pub(crate) struct Display {
     factor: f32,
     table: Vec<u8>,
 }
 
 impl Display {
     /// A display at an exposure in stops.
-    pub fn new(stops: f64) -> Self {
+    pub(crate) fn new(stops: f64) -> Self {
         let code = |i: usize| (255.0 * srgb(i as f64 / (TABLE_SIZE - 1) as f64)).round() as u8;
         Self { factor: stops.exp2().min(f64::from(f32::MAX)) as f32, table: (0..TABLE_SIZE).map(code).collect() }
     }
 
     /// Linear display values in [0, 1].
-    pub fn linear(&self, radiance: Rgb) -> Rgb {
+    pub(crate) fn linear(&self, radiance: Rgb) -> Rgb {
         neutral(radiance.map(|c| (c * self.factor).min(f32::MAX)))
     }
 
     /// Display values to bytes.
-    pub fn encode(&self, linear: Rgb) -> [u8; 3] {
+    pub(crate) fn encode(&self, linear: Rgb) -> [u8; 3] {
         linear.map(|c| self.table[(c.clamp(0.0, 1.0) * (TABLE_SIZE - 1) as f32 + 0.5) as usize])
     }
 }
 
 /// The Khronos PBR Neutral tone mapper (Khronos, "PBR Neutral Tone Mapping", 2024): colours below 0.8 keep hue and
 /// saturation, minus the 4 % that a dielectric reflects at normal incidence; brighter ones are compressed to 1.
-pub fn neutral(colour: Rgb) -> Rgb {
+pub(crate) fn neutral(colour: Rgb) -> Rgb {
     const F90_OF_DIELECTRIC: f32 = 0.04;
     const START: f32 = 0.8 - F90_OF_DIELECTRIC;
     const DESATURATION: f32 = 0.15;
@@ -96,6 +100,8 @@ mod tests {
     fn exposure_brings_a_constant_to_middle_grey() {
         let stops = automatic_exposure([([2.0; 3], 0.5), ([2.0; 3], 3.0)].into_iter());
         assert!((2.0 * stops.exp2() - MIDDLE_GREY).abs() < 1e-9);
+        let lamp = automatic_exposure([([1e-3; 3], 99.0), ([100.0; 3], 1.0)].into_iter());
+        assert!((lamp.exp2() * (1.0 + 99e-5) - BRIGHTEST_MEAN).abs() < 1e-9, "{lamp}");
         assert_eq!(automatic_exposure([([0.0; 3], 1.0)].into_iter()), 0.0);
     }
 
