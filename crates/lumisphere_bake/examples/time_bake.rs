@@ -17,6 +17,7 @@ fn main() {
         Environment::new(Grid::new(Projection::LatLong, p.width, p.height).unwrap(), p.texels).unwrap()
     };
     let mut settings = BakeSettings::standard();
+    settings.size = std::env::var("SIZE").map_or(256, |s| s.parse().unwrap());
     settings.level_count = Some(args.get(2).map_or(9, |n| n.parse().unwrap()));
     if args.get(1).is_some_and(|c| c == "quadratic") {
         settings.curve = RoughnessCurve::Quadratic;

@@ -46,11 +46,7 @@ pub(super) const TABLE: &[Row] = &[
             "lumisphere_bake",
         ],
     ),
-    Row {
-        name: "lumisphere_testkit",
-        role: Role::TestSupport,
-        may_use: &["lumisphere_sphere", "lumisphere_image"],
-    },
+    Row { name: "lumisphere_testkit", role: Role::TestSupport, may_use: &["lumisphere_sphere", "lumisphere_image"] },
     application("lumisphere-cli", &["lumisphere", "lumisphere_codec"]),
     application("xtask", &["lumisphere", "lumisphere_codec"]),
 ];

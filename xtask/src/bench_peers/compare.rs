@@ -42,13 +42,7 @@ pub(crate) fn compare() -> Result<bool> {
     Ok(true)
 }
 
-fn run_pairs(
-    cmgen: &Cmgen,
-    lumisphere: &Lumisphere,
-    source: &Source,
-    folder: &Path,
-    baked: &Path,
-) -> Result<Pairs> {
+fn run_pairs(cmgen: &Cmgen, lumisphere: &Lumisphere, source: &Source, folder: &Path, baked: &Path) -> Result<Pairs> {
     let mut pairs = Pairs { cmgen: Vec::new(), lumisphere: Vec::new() };
     for run in 0..WARM_UPS + RUNS {
         let theirs = measure(&cmgen.bake(&source.path, SIZE, &folder.join("cmgen")))?;

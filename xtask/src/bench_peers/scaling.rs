@@ -48,7 +48,11 @@ pub(crate) fn scaling() -> Result<bool> {
 }
 
 fn heading(what: &str) -> String {
-    let other = if what == "chain" { format!("{}x{USUAL_ROWS} picture", 2 * USUAL_ROWS) } else { format!("{USUAL_SIZE}² chain") };
+    let other = if what == "chain" {
+        format!("{}x{USUAL_ROWS} picture", 2 * USUAL_ROWS)
+    } else {
+        format!("{USUAL_SIZE}² chain")
+    };
     format!(
         "| {what} ({other}) | wall, s | over the row above | CPU, s | peak memory, MB | over the decoded picture |\n|---|---|---|---|---|---|"
     )

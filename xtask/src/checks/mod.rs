@@ -2,6 +2,7 @@
 
 mod readme;
 mod readme_commands;
+mod readme_proofs;
 
 use crate::{arrows, workspace};
 use anyhow::{Context, Result};
@@ -62,7 +63,7 @@ fn steps(extent: Extent) -> Vec<Step> {
                     Some(("RUSTDOCFLAGS", "-D warnings")),
                 ),
             },
-            Step { name: "README commands", check: Check::Function(readme::run) },
+            Step { name: "README", check: Check::Function(readme::run) },
         ]),
     }
     steps
@@ -153,7 +154,7 @@ mod tests {
     #[test]
     fn quick_is_a_part_without_the_slow_steps() {
         let names = |extent| steps(extent).iter().map(|s| s.name).collect::<Vec<_>>();
-        assert!(!names(Extent::Quick).contains(&"tests") && !names(Extent::Quick).contains(&"README commands"));
-        assert!(names(Extent::All).contains(&"tests") && names(Extent::All).contains(&"README commands"));
+        assert!(!names(Extent::Quick).contains(&"tests") && !names(Extent::Quick).contains(&"README"));
+        assert!(names(Extent::All).contains(&"tests") && names(Extent::All).contains(&"README"));
     }
 }

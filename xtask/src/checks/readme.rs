@@ -1,6 +1,7 @@
-//! Runs the README's commands in a temporary folder.
+//! Runs the README's commands in a temporary folder, and looks for the tests that it names.
 
 use super::readme_commands::{Line, commands};
+use super::readme_proofs;
 use crate::bench_peers::studio_picture;
 use crate::workspace;
 use anyhow::{Context, Result, bail};
@@ -25,7 +26,7 @@ pub(super) fn run() -> Result<bool> {
     let lumisphere = workspace::build_lumisphere()?;
     let folder = tempfile::tempdir()?;
     std::fs::write(folder.path().join(PICTURE), studio_picture(PICTURE_ROWS)?)?;
-    let mut all_passed = true;
+    let mut all_passed = proofs_exist(&readme)?;
     for command in &commands {
         let output = shell(command, &lumisphere, folder.path())?.output().context("sh")?;
         if !output.status.success() {
@@ -34,6 +35,16 @@ pub(super) fn run() -> Result<bool> {
         }
     }
     Ok(all_passed)
+}
+
+/// Whether every test that the README calls a proof is a function of the workspace.
+fn proofs_exist(readme: &str) -> Result<bool> {
+    let named = readme_proofs::named_tests(readme);
+    let missing = readme_proofs::missing(&named, workspace::root())?;
+    for name in &missing {
+        println!("\nREADME.md names the test {name}, which no source file has");
+    }
+    Ok(missing.is_empty())
 }
 
 /// The command as a shell would run it from outside the checkout.

@@ -50,7 +50,9 @@ fn parse(command: &str) -> Result<Line> {
     } else if command == "cargo xtask arrows" {
         Ok(Line::Arrows)
     } else {
-        bail!("found {command:?} in a sh block of the README, expected `{CARGO_RUN}...`, `lumisphere ...` or `cargo xtask ...`")
+        bail!(
+            "found {command:?} in a sh block of the README, expected `{CARGO_RUN}...`, `lumisphere ...` or `cargo xtask ...`"
+        )
     }
 }
 

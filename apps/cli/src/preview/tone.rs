@@ -7,7 +7,7 @@ use lumisphere::image::{Rgb, luminance};
 const MIDDLE_GREY: f64 = 0.18;
 /// The mean luminance is shown as no more than this: where a few lights outshine dark surroundings, middle grey for the
 /// surroundings would make all that is lit white.
-const BRIGHTEST_MEAN: f64 = 0.5;
+const BRIGHTEST_MEAN: f64 = 0.8;
 /// Darker texels count as this part of the mean luminance: black ones would drag the logarithm to -∞.
 const DARKEST: f64 = 1e-3;
 /// Entries of the table of the transfer function: its steepest step is 0.4 codes.
