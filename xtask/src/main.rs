@@ -4,6 +4,7 @@
 mod arrows;
 mod bench_peers;
 mod checks;
+mod findings;
 mod workspace;
 
 use anyhow::{Result, bail};

@@ -118,6 +118,8 @@ pub fn encode_rgb8(width: usize, height: usize, samples: &[u8]) -> Result<Vec<u8
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_source_srgb(::png::SrgbRenderingIntent::Perceptual);
+    // A preview is written far more often than it is sent anywhere.
+    encoder.set_compression(::png::Compression::Fast);
     let mut writer = encoder.write_header().map_err(failed)?;
     writer.write_image_data(samples).map_err(failed)?;
     writer.finish().map_err(failed)?;

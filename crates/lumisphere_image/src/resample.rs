@@ -10,8 +10,11 @@ use crate::{Environment, Rgb};
 use lumisphere_sphere::{Grid, Projection, Rotation, cube};
 use rayon::prelude::*;
 
-/// Angle between the points that follow a texel's curved edges, in texels.
-const OUTLINE_STEP: f64 = 0.125;
+/// How far the outline of a texel with curved edges may leave them, in texels. An edge of curvature about 1 leaves its
+/// chord of length h by h²/8.
+const OUTLINE_ERROR: f64 = 1e-3;
+/// Rows of target texels that a task gathers; neighbours share their corners.
+const GATHER_BATCH: usize = 8;
 /// Rows of source texels that are spread before their light is added up, in order.
 const SCATTER_BATCH: usize = 32;
 
@@ -47,13 +50,15 @@ fn gather(source: &Environment, target: Grid, source_from_target: &Rotation) -> 
     let grid = source.grid();
     let cells = LatLongCells::new(grid.width(), grid.height());
     let mut texels = vec![[0.0; 3]; target.texel_count()];
-    texels.par_chunks_mut(target.width()).enumerate().for_each(|(line, row)| {
-        let (face, y) = (line / target.height(), line % target.height());
+    texels.par_chunks_mut(target.width() * GATHER_BATCH).enumerate().for_each(|(batch, rows)| {
         let mut coverage = Coverage::default();
-        let mut outlines = RowOutlines::new(&cells, target, *source_from_target, face, y);
-        for (x, texel) in row.iter_mut().enumerate() {
-            coverage.cover(&cells, outlines.texel(x));
-            *texel = mean(&coverage, &cells, source.texels(), grid.width());
+        let mut outlines = RowOutlines::new(&cells, target, *source_from_target);
+        for (i, row) in rows.chunks_mut(target.width()).enumerate() {
+            outlines.move_to(batch * GATHER_BATCH + i);
+            for (x, texel) in row.iter_mut().enumerate() {
+                coverage.cover(&cells, outlines.texel(x));
+                *texel = mean(&coverage, &cells, source.texels(), grid.width());
+            }
         }
     });
     Environment::new(target, texels).unwrap_or_else(|_| unreachable!("one texel for each place"))
@@ -101,11 +106,11 @@ fn spread_row(
     line: usize,
 ) -> Vec<(usize, [f64; 4])> {
     let grid = source.grid();
-    let (face, y) = (line / grid.height(), line % grid.height());
     let mut pieces = Vec::new();
     let mut coverage = Coverage::default();
-    let mut outlines = RowOutlines::new(cells, grid, rotation, face, y);
-    for (x, texel) in source.row(face, y).iter().enumerate() {
+    let mut outlines = RowOutlines::new(cells, grid, rotation);
+    outlines.move_to(line);
+    for (x, texel) in source.row(line / grid.height(), line % grid.height()).iter().enumerate() {
         coverage.cover(cells, outlines.texel(x));
         coverage.visit(cells, |row, column, area| {
             let [r, g, b] = texel.map(|v| area * f64::from(v));
@@ -115,34 +120,53 @@ fn spread_row(
     pieces
 }
 
-/// The outlines of one row of texels, turned and laid on a lat-long grid.
+/// The outlines of a row of texels, turned and laid on a lat-long grid.
 struct RowOutlines<'a> {
     cells: &'a LatLongCells,
     grid: Grid,
     rotation: Rotation,
     face: usize,
     y: usize,
-    /// For a cube, whose neighbours share corners: those above and below the row.
-    corners: Option<[Vec<Vertex>; 2]>,
+    /// For a cube, whose texels share corners: those above and below the row, and which line of corners lies below.
+    corners: [Vec<Vertex>; 2],
+    below: Option<(usize, usize)>,
     outline: Vec<Vertex>,
 }
 
 impl<'a> RowOutlines<'a> {
-    fn new(cells: &'a LatLongCells, grid: Grid, rotation: Rotation, face: usize, y: usize) -> Self {
-        let size = grid.width();
+    fn new(cells: &'a LatLongCells, grid: Grid, rotation: Rotation) -> Self {
+        Self { cells, grid, rotation, face: 0, y: 0, corners: Default::default(), below: None, outline: Vec::new() }
+    }
+
+    /// Goes to a row, counted through all faces.
+    fn move_to(&mut self, line: usize) {
+        (self.face, self.y) = (line / self.grid.height(), line % self.grid.height());
+        if self.grid.projection() != Projection::Cube {
+            return;
+        }
+        self.corners.swap(0, 1);
+        if self.below != Some((self.face, self.y)) {
+            self.corners[0] = self.corner_line(self.y);
+        }
+        self.corners[1] = self.corner_line(self.y + 1);
+        self.below = Some((self.face, self.y + 1));
+    }
+
+    fn corner_line(&self, y: usize) -> Vec<Vertex> {
+        let size = self.grid.width();
         let edge = |i: usize| i as f64 / size as f64;
-        let corner = |x: usize, y: usize| cells.vertex(rotation.apply(cube::direction(face, edge(x), edge(y))));
-        let corners = (grid.projection() == Projection::Cube)
-            .then(|| [y, y + 1].map(|y| (0..=size).map(|x| corner(x, y)).collect()));
-        Self { cells, grid, rotation, face, y, corners, outline: Vec::new() }
+        let corner = |x: usize| self.cells.vertex(self.rotation.apply(cube::direction(self.face, edge(x), edge(y))));
+        (0..=size).map(corner).collect()
     }
 
     fn texel(&mut self, x: usize) -> &[Vertex] {
         self.outline.clear();
-        if let Some([above, below]) = &self.corners {
+        if self.grid.projection() == Projection::Cube {
+            let [above, below] = &self.corners;
             self.outline.extend([above[x], above[x + 1], below[x + 1], below[x]]);
         } else {
-            let step = OUTLINE_STEP * (4.0 * std::f64::consts::PI / self.grid.texel_count() as f64).sqrt();
+            let texel = (4.0 * std::f64::consts::PI / self.grid.texel_count() as f64).sqrt();
+            let step = (8.0 * OUTLINE_ERROR * texel).sqrt();
             let (cells, rotation) = (self.cells, self.rotation);
             let outline = self.grid.texel_outline(self.face, x, self.y, step);
             self.outline.extend(outline.into_iter().map(|d| cells.vertex(rotation.apply(d))));

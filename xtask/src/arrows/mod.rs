@@ -2,6 +2,7 @@
 
 mod table;
 
+use crate::findings::Findings;
 use crate::workspace;
 use anyhow::{Context, Result};
 use serde_json::Value;
@@ -16,14 +17,20 @@ struct Package {
 
 /// Prints every wrong arrow; true if there is none.
 pub(crate) fn run() -> Result<bool> {
-    let packages = packages(&workspace::metadata()?)?;
-    let faults = faults(TABLE, &packages);
+    let Findings { summary, faults } = check()?;
     for fault in &faults {
         println!("{fault}");
     }
-    let arrows: usize = packages.iter().map(|p| p.uses.iter().filter(|u| is_member(&packages, u)).count()).sum();
-    println!("{} crates, {arrows} arrows, {} wrong", packages.len(), faults.len());
+    println!("{summary}, {} wrong", faults.len());
     Ok(faults.is_empty())
+}
+
+/// Finds every wrong arrow.
+pub(crate) fn check() -> Result<Findings> {
+    let packages = packages(&workspace::metadata()?)?;
+    let faults = faults(TABLE, &packages);
+    let arrows: usize = packages.iter().map(|p| p.uses.iter().filter(|u| is_member(&packages, u)).count()).sum();
+    Ok(Findings { summary: format!("{} crates, {arrows} arrows", packages.len()), faults })
 }
 
 fn is_member(packages: &[Package], name: &str) -> bool {

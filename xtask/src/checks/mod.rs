@@ -4,6 +4,7 @@ mod readme;
 mod readme_commands;
 mod readme_proofs;
 
+use crate::findings::Findings;
 use crate::{arrows, workspace};
 use anyhow::{Context, Result};
 use std::io::Write;
@@ -27,8 +28,8 @@ struct Step {
 enum Check {
     /// cargo with these arguments and an environment variable must succeed.
     Cargo(&'static [&'static str], Option<(&'static str, &'static str)>),
-    /// A function that prints what is wrong; true if nothing is.
-    Function(fn() -> Result<bool>),
+    /// A function that says what is wrong.
+    Function(fn() -> Result<Findings>),
 }
 
 /// What a step came to.
@@ -49,7 +50,7 @@ const fn cargo(name: &'static str, args: &'static [&'static str]) -> Step {
 fn steps(extent: Extent) -> Vec<Step> {
     let mut steps = vec![
         cargo("format", &["fmt", "--all", "--check"]),
-        Step { name: "arrows", check: Check::Function(arrows::run) },
+        Step { name: "arrows", check: Check::Function(arrows::check) },
         cargo("clippy", &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]),
     ];
     match extent {
@@ -63,7 +64,7 @@ fn steps(extent: Extent) -> Vec<Step> {
                     Some(("RUSTDOCFLAGS", "-D warnings")),
                 ),
             },
-            Step { name: "README", check: Check::Function(readme::run) },
+            Step { name: "README", check: Check::Function(readme::check) },
         ]),
     }
     steps
@@ -107,7 +108,8 @@ impl Check {
                 cargo_outcome(command)
             }
             Self::Function(check) => {
-                Ok(Outcome { passed: check()?, note: String::new(), log: "what is wrong stands above".to_owned() })
+                let Findings { summary, faults } = check()?;
+                Ok(Outcome { passed: faults.is_empty(), note: summary, log: faults.join("\n") })
             }
         }
     }
@@ -118,7 +120,18 @@ fn cargo_outcome(mut command: Command) -> Result<Outcome> {
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     let (out, err) = (text(&output.stdout), text(&output.stderr));
     let note = test_counts(&out).map_or_else(String::new, |[ran, ignored]| format!("{ran} tests, {ignored} ignored"));
-    Ok(Outcome { passed: output.status.success(), note, log: format!("{err}\n{out}") })
+    Ok(Outcome { passed: output.status.success(), note, log: without_successes(&format!("{err}\n{out}")) })
+}
+
+/// A log without the lines on what went well: several hundred, and a failure would drown in them.
+fn without_successes(log: &str) -> String {
+    let starts =
+        ["Compiling", "Checking", "Finished", "Running", "Doc-tests", "running", "test result: ok", "all doctests"];
+    let went_well = |line: &str| {
+        let line = line.trim();
+        line.is_empty() || line.ends_with("... ok") || starts.iter().any(|start| line.starts_with(start))
+    };
+    log.lines().filter(|line| !went_well(line)).collect::<Vec<_>>().join("\n")
 }
 
 /// Tests that passed and that were ignored, summed over the `test result:` lines; `None` without such a line.
@@ -143,6 +156,14 @@ mod tests {
                       test result: FAILED. 40 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out\n";
         assert_eq!(test_counts(output), Some([43, 1]));
         assert_eq!(test_counts("    Finished dev profile\n"), None);
+    }
+
+    #[test]
+    fn what_failed_stays_in_the_log() {
+        let log = "   Compiling a v1\n\nrunning 2 tests\ntest good ... ok\ntest bad ... FAILED\nassertion failed: x\n\
+                   test result: FAILED. 1 passed; 1 failed\ntest result: ok. 2 passed; 0 failed\n";
+        let expected = "test bad ... FAILED\nassertion failed: x\ntest result: FAILED. 1 passed; 1 failed";
+        assert_eq!(without_successes(log), expected);
     }
 
     #[test]

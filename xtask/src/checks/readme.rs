@@ -3,6 +3,7 @@
 use super::readme_commands::{Line, commands};
 use super::readme_proofs;
 use crate::bench_peers::studio_picture;
+use crate::findings::Findings;
 use crate::workspace;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
@@ -15,8 +16,8 @@ const PICTURE_ROWS: usize = 256;
 /// Fewer commands than this, and the README is not what it was.
 const FEWEST_COMMANDS: usize = 5;
 
-/// Runs every command, one after the other in one folder; true if all of them succeed.
-pub(super) fn run() -> Result<bool> {
+/// Runs every command, one after the other in one folder; each has to succeed.
+pub(super) fn check() -> Result<Findings> {
     let path = workspace::root().join("README.md");
     let readme = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
     let commands = commands(&readme)?;
@@ -26,25 +27,18 @@ pub(super) fn run() -> Result<bool> {
     let lumisphere = workspace::build_lumisphere()?;
     let folder = tempfile::tempdir()?;
     std::fs::write(folder.path().join(PICTURE), studio_picture(PICTURE_ROWS)?)?;
-    let mut all_passed = proofs_exist(&readme)?;
+    let named = readme_proofs::named_tests(&readme);
+    let missing = readme_proofs::missing(&named, workspace::root())?;
+    let no_test = |name: &String| format!("README.md names the test {name}, which no source file has");
+    let mut faults: Vec<String> = missing.iter().map(no_test).collect();
     for command in &commands {
         let output = shell(command, &lumisphere, folder.path())?.output().context("sh")?;
         if !output.status.success() {
-            all_passed = false;
-            println!("\n{command:?}: {}\n{}", output.status, String::from_utf8_lossy(&output.stderr).trim());
+            let said = String::from_utf8_lossy(&output.stderr);
+            faults.push(format!("{command:?}: {}\n{}", output.status, said.trim()));
         }
     }
-    Ok(all_passed)
-}
-
-/// Whether every test that the README calls a proof is a function of the workspace.
-fn proofs_exist(readme: &str) -> Result<bool> {
-    let named = readme_proofs::named_tests(readme);
-    let missing = readme_proofs::missing(&named, workspace::root())?;
-    for name in &missing {
-        println!("\nREADME.md names the test {name}, which no source file has");
-    }
-    Ok(missing.is_empty())
+    Ok(Findings { summary: format!("{} commands, {} named tests", commands.len(), named.len()), faults })
 }
 
 /// The command as a shell would run it from outside the checkout.
