@@ -43,7 +43,7 @@ impl RoughnessCurve {
 
 /// Root of 0.7 p² - 1.7 p + lod/6 = 0 below 1.
 fn unity(lod: f64) -> f64 {
-    let discriminant = (1.7 * 1.7 - 4.0 * 0.7 * lod / 6.0).max(1.0 / 1.4);
+    let discriminant = (1.7 * 1.7 - 4.0 * 0.7 * lod / 6.0).max(0.0);
     if lod >= 6.0 { 1.0 } else { (1.7 - discriminant.sqrt()) / 1.4 }
 }
 

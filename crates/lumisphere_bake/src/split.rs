@@ -16,8 +16,8 @@ use lumisphere_sphere::{Vec3, latlong};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Radius of the sum, in wavelengths over 2π of the band where L_high begins. The fade of half that width then has few
-/// bands beyond it.
+/// Radius of the sum, in wavelengths over 2π of the band where L_high begins. The fade, which takes the outer half of the
+/// radius, then has few bands beyond it: 14 leaves 3e-5 of RMS on an interior with small lamps, 10 leaves 5e-4.
 const REACH: f64 = 14.0;
 /// What interpolation may add to the image of a point light: a third of the contract for α < 0.015.
 const TOLERANCE: f64 = 3e-4;
@@ -170,7 +170,7 @@ struct Radial {
     /// q maps to t = q · stretch - 1 in [-1, 1].
     stretch: f32,
     chebyshev: Vec<f32>,
-    /// The fade runs from near to far.
+    /// The fade runs from near to far, smooth in s.
     near_s: f32,
     per_fade: f32,
     far_s: f64,

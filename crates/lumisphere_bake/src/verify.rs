@@ -37,6 +37,8 @@ pub struct LevelReport {
     pub worst: f64,
     /// Light of the compared texels over the exact light.
     pub energy: f64,
+    /// The same for what the format stores of the exact level.
+    pub format_energy: f64,
     /// Jump across cube edges over the jump beside them, against the same ratio of the exact level. `None` below 4 texels.
     pub seam: Option<f64>,
     /// What `relative_rms` may be (beside the format's own).
@@ -44,8 +46,10 @@ pub struct LevelReport {
 }
 
 impl LevelReport {
-    /// Energy may differ from 1 by this much.
+    /// Energy may differ from what the format leaves of it by this much.
     pub const ENERGY_LIMIT: f64 = 1e-4;
+    /// A format that changes the energy more than this does not round, it clamps.
+    pub const CLAMPED: f64 = 0.01;
     /// Seams may be this much rougher than the exact level.
     pub const SEAM_LIMIT: f64 = 1.05;
 
@@ -53,7 +57,8 @@ impl LevelReport {
     /// squares.
     pub fn passes(&self) -> bool {
         self.relative_rms <= self.limit.hypot(1.05 * self.format_rms)
-            && (self.energy - 1.0).abs() <= Self::ENERGY_LIMIT
+            && (self.energy - self.format_energy).abs() <= Self::ENERGY_LIMIT
+            && (self.format_energy - 1.0).abs() <= Self::CLAMPED
             && self.seam.is_none_or(|s| s <= Self::SEAM_LIMIT)
     }
 }
@@ -165,6 +170,7 @@ impl Judge<'_> {
         };
         // The texels spread over the level stand for it; the brightest ones show what they may miss.
         let (spread, bright) = (compare(0..choice.spread_count), compare(0..choice.bright_count));
+        let energy = if spread.energy_error() > bright.energy_error() { &spread } else { &bright };
         LevelReport {
             lod,
             size,
@@ -172,7 +178,8 @@ impl Judge<'_> {
             relative_rms: spread.relative_rms.max(bright.relative_rms),
             format_rms: spread.format_rms.max(bright.format_rms),
             worst: compare(0..choice.texels.len()).worst,
-            energy: farther_from_1(spread.energy, bright.energy),
+            energy: energy.energy,
+            format_energy: energy.format_energy,
             seam: choice.seam(level, &truth),
             limit,
         }
@@ -205,6 +212,7 @@ fn mirror_report(
         format_rms: errors.format_rms,
         worst: errors.worst,
         energy,
+        format_energy: errors.format_energy,
         seam: None,
         limit: limit(0.0),
     })
@@ -355,13 +363,18 @@ struct Errors {
     format_rms: f64,
     worst: f64,
     energy: f64,
+    format_energy: f64,
 }
 
 impl Errors {
+    fn energy_error(&self) -> f64 {
+        (self.energy - self.format_energy).abs()
+    }
+
     fn of(level: &Environment, texels: &[TexelAt], truth: &[[f64; 3]], quantise: &(dyn Fn(Rgb) -> Rgb + Sync)) -> Self {
         let size = level.grid().width();
         let (mut square, mut error, mut format) = (0.0, 0.0, 0.0);
-        let (mut found_sum, mut exact_sum) = (0.0, 0.0);
+        let (mut found_sum, mut stored_sum, mut exact_sum) = (0.0, 0.0, 0.0);
         let mut worst = 0.0_f64;
         for (at, exact) in texels.iter().zip(truth) {
             let found = level.texel(at.face, at.x, at.y).map(f64::from);
@@ -372,6 +385,7 @@ impl Errors {
                 error += omega * (found[c] - exact[c]).powi(2);
                 format += omega * (stored[c] - exact[c]).powi(2);
                 found_sum += omega * found[c];
+                stored_sum += omega * stored[c];
                 exact_sum += omega * exact[c];
                 if exact[c] > 0.0 {
                     worst = worst.max((found[c] / exact[c] - 1.0).abs());
@@ -379,7 +393,8 @@ impl Errors {
             }
         }
         let relative = |e: f64| if square > 0.0 { (e / square).sqrt() } else { e.sqrt() };
-        let energy = if exact_sum > 0.0 { found_sum / exact_sum } else { 1.0 + found_sum };
-        Self { relative_rms: relative(error), format_rms: relative(format), worst, energy }
+        let share = |sum: f64| if exact_sum > 0.0 { sum / exact_sum } else { 1.0 + sum };
+        let (energy, format_energy) = (share(found_sum), share(stored_sum));
+        Self { relative_rms: relative(error), format_rms: relative(format), worst, energy, format_energy }
     }
 }

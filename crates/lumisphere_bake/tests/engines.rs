@@ -37,7 +37,7 @@ fn compare(environment: &Environment, settings: &BakeSettings, tolerance: f64, f
     for (lod, p) in settings.roughness().iter().enumerate().skip(1) {
         let error = relative_rms_rgb(spectral[lod].texels(), exact[lod].texels());
         let line = format!(
-            "{}x{} {:?} {:?} p {:.3} alpha {:.5}: {error:.1e}",
+            "{}x{} {:?} {:?} p {:.3} alpha {:.5}: {error:.2e}",
             environment.grid().width(),
             environment.grid().height(),
             settings.lobe,
@@ -74,10 +74,9 @@ fn sharp_spectral_levels_are_the_sum_over_texels() {
     let mut failures = Vec::new();
     for lobe in SHAPES {
         // α = 0.0169, above the contract's first step; and 0.0049, above its second.
-        for (curve, tolerance) in [
-            (RoughnessCurve::Custom(|_, _| 0.13), 1e-4),
-            (RoughnessCurve::Custom(|_, _| 0.07), 1e-3),
-        ] {
+        for (curve, tolerance) in
+            [(RoughnessCurve::Custom(|_, _| 0.13), 1e-4), (RoughnessCurve::Custom(|_, _| 0.07), 1e-3)]
+        {
             for weight in [LobeWeight::NDotL, LobeWeight::None] {
                 let settings = BakeSettings { lobe, weight, ..chain_only(4, 2, curve) };
                 compare(&environment, &settings, tolerance, &mut failures);

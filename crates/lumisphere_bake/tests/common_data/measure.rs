@@ -118,7 +118,8 @@ pub(crate) fn error_against_sum(
     turn: impl Fn(Vec3) -> Vec3 + Sync,
 ) -> f64 {
     let all = texels(level);
-    let chosen: Vec<usize> = (0..count).map(|i| ((r2(i as u64)[0] * all.len() as f64) as usize).min(all.len() - 1)).collect();
+    let chosen: Vec<usize> =
+        (0..count).map(|i| ((r2(i as u64)[0] * all.len() as f64) as usize).min(all.len() - 1)).collect();
     let parts: Vec<(f64, f64)> = chosen
         .par_iter()
         .map(|&i| {

@@ -1,6 +1,7 @@
 //! Shared by the tests on files that the project did not write.
 #![allow(dead_code)]
 
+pub(crate) mod filtered;
 pub(crate) mod ktx1;
 pub(crate) mod measure;
 pub(crate) mod turn;
@@ -38,9 +39,16 @@ pub(crate) fn environment(path: impl AsRef<Path>, projection: Projection) -> Env
     Environment::new(grid, picture.texels).unwrap()
 }
 
+/// The picture with a constant added.
+pub(crate) fn lifted(environment: &Environment, by: f32) -> Environment {
+    let texels = environment.texels().iter().map(|t| t.map(|v| v + by)).collect();
+    Environment::new(environment.grid(), texels).unwrap()
+}
+
 /// Six face files as a cube.
 pub(crate) fn cube_of_files(folder: &Path, names: [&str; 6]) -> Environment {
-    let faces = names.map(|name| decode_picture(&std::fs::read(folder.join(name)).unwrap(), &Limits::default()).unwrap());
+    let faces =
+        names.map(|name| decode_picture(&std::fs::read(folder.join(name)).unwrap(), &Limits::default()).unwrap());
     let size = faces[0].width;
     assert!(faces.iter().all(|f| (f.width, f.height) == (size, size)));
     let texels: Vec<Rgb> = faces.into_iter().flat_map(|f| f.texels).collect();

@@ -68,3 +68,12 @@ pub(crate) fn ranked(misfit: impl Fn(&Turn) -> f64) -> Vec<(Turn, f64)> {
     ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
     ranked
 }
+
+impl Turn {
+    /// The turn that undoes this one.
+    pub(crate) fn inverse(&self) -> Self {
+        let d = [0.1, 0.5, 0.86];
+        let undoes = |other: &Self| other.apply(self.apply(d)).iter().zip(d).all(|(a, b)| (a - b).abs() < 1e-9);
+        Self::all().into_iter().find(undoes).unwrap()
+    }
+}
