@@ -38,20 +38,6 @@ pub(crate) fn difference(found: &Environment, expected: &Environment) -> f64 {
     relative_rms(found, |i, _| expected.texels()[i].map(f64::from))
 }
 
-/// The same after the best common factor for `found`, with that factor.
-pub(crate) fn shape_difference(found: &Environment, expected: &Environment) -> (f64, f64) {
-    let (mut ab, mut aa) = (0.0, 0.0);
-    for ((_, omega, a), (_, _, b)) in texels(found).into_iter().zip(texels(expected)) {
-        for c in 0..3 {
-            ab += omega * a[c] * b[c];
-            aa += omega * a[c] * a[c];
-        }
-    }
-    let factor = ab / aa;
-    let scaled = found.texels().iter().map(|t| t.map(|v| (f64::from(v) * factor) as f32)).collect();
-    (difference(&Environment::new(found.grid(), scaled).unwrap(), expected), factor)
-}
-
 /// Mean over the sphere, largest channel difference over the largest mean.
 pub(crate) fn mean_difference(a: &Environment, b: &Environment) -> f64 {
     let (a, b) = (a.mean(), b.mean());

@@ -1,5 +1,4 @@
 //! Shared by the tests on files that the project did not write.
-#![allow(dead_code)]
 
 pub(crate) mod filtered;
 pub(crate) mod ktx1;
