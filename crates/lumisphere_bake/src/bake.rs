@@ -3,7 +3,7 @@
 use crate::cube_directions::CubeDirections;
 use crate::monte_carlo::MonteCarlo;
 use crate::quadrature::TexelSum;
-use crate::spectral::{self, BAND, ZonalKernel};
+use crate::spectral::{self, ZonalKernel};
 use crate::split::HighPart;
 use crate::suns::Suns;
 use crate::{BakeError, BakeSettings, Engine, source};
@@ -84,7 +84,8 @@ pub fn bake(
     progress(Step::Transform);
     let suns = Suns::take_for(settings.engine, &mut source);
     let width = source.grid().width();
-    let rows = FourierRows::new(source.texels(), width, BAND, RowWeights::TexelSolidAngle);
+    let band = spectral::band(settings.lobe, settings.weight);
+    let rows = FourierRows::new(source.texels(), width, band, RowWeights::TexelSolidAngle);
     let engine = LevelBaker::new(source, settings)?;
     let spectrum = Spectrum::from_rows(rows);
     let sh = suns.add_harmonics(spectrum.to_sh(settings.sh_bands))?;
@@ -193,7 +194,7 @@ impl LevelBaker {
 
 fn splits_a_level(settings: &BakeSettings) -> Result<bool, BakeError> {
     for p in settings.roughness().into_iter().skip(1) {
-        if ZonalKernel::of(&settings.lobe_at(p), 2 * BAND)?.outruns_band() {
+        if ZonalKernel::of(&settings.lobe_at(p), spectral::band(settings.lobe, settings.weight))?.outruns_band() {
             return Ok(true);
         }
     }
@@ -204,7 +205,7 @@ impl Levels<'_> {
     fn bake(&mut self, lobe: &Lobe, directions: &CubeDirections) -> Result<Vec<Rgb>, BakeError> {
         match &mut self.engine {
             LevelBaker::Spectral { source, high } => {
-                let zonal = ZonalKernel::of(lobe, 2 * BAND)?;
+                let zonal = ZonalKernel::of(lobe, self.spectrum.band())?;
                 let mut sums = if zonal.outruns_band() {
                     // The source gives its memory to what is left of it without its low bands.
                     if let Some(source) = source.take() {

@@ -9,6 +9,8 @@ use std::f64::consts::PI;
 /// A lobe needs texels of at most this many α to be summed over texel centres: on coarser grids the sum sees single
 /// texels, not the patches of constant radiance that they stand for.
 const TEXELS_PER_ALPHA: f64 = 0.75;
+/// Fewer rows are too few even for the widest lobe: the sum over texels of a constant is off by 1e-4 and more.
+const MIN_ROWS: usize = 128;
 /// Rows beyond which a picture is not cut finer.
 const MAX_REFINED_ROWS: usize = 2048;
 /// A picture in another projection is laid on this many times its own rows, within bounds.
@@ -44,7 +46,7 @@ pub(crate) fn refined(panorama: Environment, settings: &BakeSettings) -> Result<
         settings.roughness().into_iter().map(|p| p.to_alpha().value()).filter(|a| *a > 0.0).fold(1.0, f64::min);
     let (width, height) = (panorama.grid().width(), panorama.grid().height());
     let wanted = (PI / (TEXELS_PER_ALPHA * sharpest * height as f64)).ceil() as usize;
-    let k = wanted.min(MAX_REFINED_ROWS / height).max(1);
+    let k = wanted.max(MIN_ROWS.div_ceil(height)).min(MAX_REFINED_ROWS / height).max(1);
     if k == 1 {
         return Ok(panorama);
     }

@@ -3,7 +3,7 @@
 use crate::BakeError;
 use crate::cube_directions::CubeDirections;
 use crate::interpolate::{self, LAGRANGE_ERROR, TAPS};
-use lumisphere_bsdf::Lobe;
+use lumisphere_bsdf::{Lobe, LobeShape, LobeWeight};
 use lumisphere_image::Rgb;
 use lumisphere_sh::Spectrum;
 use lumisphere_sh::zonal::zonal_coefficients;
@@ -12,26 +12,37 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Bands of the transform: GGX falls off about as exp(-2αl), so 512 serve down to α = 0.015 under a bare sun.
-pub(crate) const BAND: usize = 512;
+const BAND: usize = 512;
+/// Lobes that fall steeply at the horizon have a slow tail there: [`BAND`] leaves 2e-4 of Charlie's.
+const STEEP_BAND: usize = 1024;
 /// Bands are dropped, and grids made coarser, where that changes the image of a point light by this much of its RMS.
 /// A fifth of the contract's 1e-4.
 const TOLERANCE: f64 = 2e-5;
 
+/// Bands that a chain of these lobes needs.
+pub(crate) fn band(shape: LobeShape, weight: LobeWeight) -> usize {
+    if shape == LobeShape::Charlie || weight == LobeWeight::Full { STEEP_BAND } else { BAND }
+}
+
 /// Zonal coefficients of a lobe, normalised to 1 at l = 0.
 pub(crate) struct ZonalKernel {
+    band: usize,
+    peaks_at_r: bool,
     pub(crate) coefficients: Vec<f64>,
     /// 2π ∫ K d cos θ.
     pub(crate) integral: f64,
 }
 
 impl ZonalKernel {
+    /// For a transform of `band` bands.
     pub(crate) fn of(lobe: &Lobe, band: usize) -> Result<Self, BakeError> {
         let kernel = |s: f64| lobe.kernel_at_sin2_half(s);
-        let zonal = zonal_coefficients(band, &kernel, lobe.support_cos(), lobe.characteristic_angle())?;
-        Ok(Self { coefficients: zonal.coefficients, integral: zonal.integral })
+        let zonal = zonal_coefficients(2 * band, &kernel, lobe.support_cos(), lobe.characteristic_angle())?;
+        let peaks_at_r = lobe.shape != LobeShape::Charlie;
+        Ok(Self { band, peaks_at_r, coefficients: zonal.coefficients, integral: zonal.integral })
     }
 
-    /// The smallest band that keeps the image of a point light to [`TOLERANCE`], at most [`BAND`].
+    /// The smallest band that keeps the image of a point light to [`TOLERANCE`], at most the transform's.
     pub(crate) fn significant_band(&self) -> usize {
         let energy = |l: usize| (2 * l + 1) as f64 * self.coefficients[l].powi(2);
         let total: f64 = (0..self.coefficients.len()).map(energy).sum();
@@ -39,7 +50,7 @@ impl ZonalKernel {
         for l in (0..self.coefficients.len()).rev() {
             dropped += energy(l);
             if dropped > TOLERANCE * TOLERANCE * total {
-                return (l + 1).min(BAND);
+                return (l + 1).min(self.band);
             }
         }
         1
@@ -48,7 +59,7 @@ impl ZonalKernel {
     /// Whether the lobe is so narrow that the transform's band cuts it: its coefficients have not died down there.
     /// (A wide lobe clamped at the horizon has a slow tail too, but the band has long caught its bulk.)
     pub(crate) fn outruns_band(&self) -> bool {
-        self.coefficients.get(BAND).is_some_and(|k| k.abs() > SPLIT_COEFFICIENT)
+        self.peaks_at_r && self.coefficients.get(self.band).is_some_and(|k| k.abs() > SPLIT_COEFFICIENT)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::bake::{BakedEnvironment, SpecularChain};
 use crate::quadrature::TexelSum;
 use crate::{BakeError, BakeSettings, source};
-use lumisphere_bsdf::{Alpha, DfgTable, Lobe, LobeShape, LobeWeight, PerceptualRoughness, dfg};
+use lumisphere_bsdf::{Alpha, DfgTable, Lobe, LobeShape, LobeWeight, Masking, PerceptualRoughness, dfg};
 use lumisphere_image::{Environment, Rgb, resample};
 use lumisphere_sh::projection::project;
 use lumisphere_sh::{ShRgb, ShRotation};
@@ -39,6 +39,8 @@ pub struct LevelReport {
     pub energy: f64,
     /// The same for what the format stores of the exact level.
     pub format_energy: f64,
+    /// How far the two may differ.
+    pub energy_limit: f64,
     /// Jump across cube edges over the jump beside them, against the same ratio of the exact level. `None` below 4 texels.
     pub seam: Option<f64>,
     /// What `relative_rms` may be (beside the format's own).
@@ -48,6 +50,8 @@ pub struct LevelReport {
 impl LevelReport {
     /// Energy may differ from what the format leaves of it by this much.
     pub const ENERGY_LIMIT: f64 = 1e-4;
+    /// At level 0 the light of a single texel may differ by this much.
+    pub const TEXEL_ENERGY_LIMIT: f64 = 1e-3;
     /// A format that changes the energy more than this does not round, it clamps.
     pub const CLAMPED: f64 = 0.01;
     /// Seams may be this much rougher than the exact level.
@@ -57,7 +61,7 @@ impl LevelReport {
     /// squares.
     pub fn passes(&self) -> bool {
         self.relative_rms <= self.limit.hypot(1.05 * self.format_rms)
-            && (self.energy - self.format_energy).abs() <= Self::ENERGY_LIMIT
+            && (self.energy - self.format_energy).abs() <= self.energy_limit
             && (self.format_energy - 1.0).abs() <= Self::CLAMPED
             && self.seam.is_none_or(|s| s <= Self::SEAM_LIMIT)
     }
@@ -117,7 +121,7 @@ pub fn verify(
     }
     let dfg_error = baked.dfg.as_ref().map(|table| {
         progress(crate::Step::Dfg);
-        dfg_error(table)
+        dfg_error(table, settings.masking)
     });
     Ok(VerifyReport { levels, irradiance, sh_error, dfg_error })
 }
@@ -141,7 +145,8 @@ struct Judge<'a> {
 
 impl Judge<'_> {
     fn level(&self, chain: &SpecularChain, lod: usize) -> LevelReport {
-        let p = chain.roughness[lod];
+        // What was asked for, not what the chain says of itself.
+        let p = self.settings.roughness()[lod];
         let lobe = self.settings.lobe_at(p);
         let limit = limit(p.to_alpha().value());
         self.report(&chain.levels.levels()[lod], lod, p, limit, |d| self.truth.mean(&lobe, d))
@@ -170,16 +175,18 @@ impl Judge<'_> {
         };
         // The texels spread over the level stand for it; the brightest ones show what they may miss.
         let (spread, bright) = (compare(0..choice.spread_count), compare(0..choice.bright_count));
+        let edges = compare(choice.bright_count..choice.texels.len());
         let energy = if spread.energy_error() > bright.energy_error() { &spread } else { &bright };
         LevelReport {
             lod,
             size,
             perceptual_roughness,
-            relative_rms: spread.relative_rms.max(bright.relative_rms),
-            format_rms: spread.format_rms.max(bright.format_rms),
+            relative_rms: spread.relative_rms.max(bright.relative_rms).max(edges.relative_rms),
+            format_rms: spread.format_rms.max(bright.format_rms).max(edges.format_rms),
             worst: compare(0..choice.texels.len()).worst,
             energy: energy.energy,
             format_energy: energy.format_energy,
+            energy_limit: LevelReport::ENERGY_LIMIT,
             seam: choice.seam(level, &truth),
             limit,
         }
@@ -213,9 +220,16 @@ fn mirror_report(
         worst: errors.worst,
         energy,
         format_energy: errors.format_energy,
+        energy_limit: LevelReport::ENERGY_LIMIT
+            + (LevelReport::TEXEL_ENERGY_LIMIT - LevelReport::ENERGY_LIMIT) * brightest_share(panorama),
         seam: None,
         limit: limit(0.0),
     })
+}
+
+/// The brightest texel's share of all light.
+fn brightest_share(panorama: &Environment) -> f64 {
+    lumisphere_image::statistics(panorama).brightest.map_or(0.0, |b| b.energy_share)
 }
 
 /// Largest error of a coefficient over L00, against the plain sum of texels times basis.
@@ -229,14 +243,14 @@ fn sh_error(found: &ShRgb, source: &Environment, settings: &BakeSettings) -> Res
 }
 
 /// Largest error of the table against the integral, over a grid of its texels with the corners.
-fn dfg_error(table: &DfgTable) -> f64 {
+fn dfg_error(table: &DfgTable, masking: Masking) -> f64 {
     let size = table.size();
     let steps = size.min(DFG_STEPS);
     let pick = |i: usize| if steps > 1 { i * (size - 1) / (steps - 1) } else { 0 };
     let error = |i: usize| {
         let (x, y) = (pick(i % steps), pick(i / steps));
         let (n_dot_v, p) = table.texel_centre(x, y);
-        let exact = dfg::ggx_albedo(n_dot_v, p.to_alpha(), table.masking());
+        let exact = dfg::ggx_albedo(n_dot_v, p.to_alpha(), masking);
         let [scale, bias] = table.texels()[y * size + x].map(f64::from);
         (scale - exact.scale).abs().max((bias - exact.bias).abs())
     };

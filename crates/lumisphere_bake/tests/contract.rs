@@ -1,5 +1,5 @@
 //! The accuracy contract, measured by `verify` against the sum over every texel, and proof that `verify` can fail.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 use lumisphere_bake::{
     BakeSettings, BakedEnvironment, LevelReport, RoughnessCurve, VerifyReport, VerifySettings, bake, verify,

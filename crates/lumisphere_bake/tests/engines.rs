@@ -1,5 +1,5 @@
 //! The engines against each other, the sample counts, and the bytes for any number of threads.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 use lumisphere_bake::{BakeSettings, BakedEnvironment, Engine, Outputs, RoughnessCurve, SampleLookup, bake};
 use lumisphere_bsdf::{LobeShape, LobeWeight};

@@ -1,5 +1,5 @@
 //! What the physics says a bake must be: closed forms, furnaces, energy, symmetry, and inputs at the edge.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 use lumisphere_bake::{BakeError, BakeSettings, BakedEnvironment, Engine, Outputs, RoughnessCurve, bake};
 use lumisphere_bsdf::{LobeShape, LobeWeight, Masking, PerceptualRoughness, dfg::ggx_average_albedo};

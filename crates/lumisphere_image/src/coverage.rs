@@ -149,6 +149,13 @@ impl Coverage {
         self.chords.last().map_or(0.0, |c| c.0)
     }
 
+    /// Along the meridian to the pole, and along the pole to the meridian of what comes after.
+    fn cross_pole(&mut self, cells: &LatLongCells, pole: Vertex, next: Vertex) {
+        let (column, z) = (self.last_column(), pole.z.signum());
+        self.chords.push((column, z));
+        self.chords.push((nearest_turn(next.column, column, cells.width), z));
+    }
+
     fn push(&mut self, v: Vertex, cells: &LatLongCells) {
         self.chords.push((nearest_turn(v.column, self.last_column(), cells.width), v.z));
     }
@@ -157,7 +164,9 @@ impl Coverage {
     fn push_arc(&mut self, cells: &LatLongCells, from: Vertex, to: Vertex, splits: u32) {
         if splits < MAX_SPLITS && bulges(cells, &from, &to) {
             let middle = cells.vertex(normalize(add(from.direction, to.direction)));
-            if !middle.at_pole {
+            if middle.at_pole {
+                self.cross_pole(cells, middle, to);
+            } else {
                 self.push_arc(cells, from, middle, splits + 1);
                 self.push_arc(cells, middle, to, splits + 1);
                 return;

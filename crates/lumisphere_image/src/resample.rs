@@ -27,11 +27,58 @@ pub fn resample(source: &Environment, target: Grid, rotation: &Rotation) -> Envi
     if unturned && source.grid() == target {
         return source.clone();
     }
+    let (source_cuts, target_cuts) = (cuts(source.grid()), cuts(target));
+    if source_cuts * target_cuts > 1 {
+        let fine = resample(&cut(source, source_cuts), cut_grid(target, target_cuts), rotation);
+        return joined(&fine, target, target_cuts);
+    }
     match (source.projection(), target.projection()) {
         (Projection::LatLong, _) => gather(source, target, &rotation.inverse()),
         (_, Projection::LatLong) => scatter(source, target, rotation),
         _ => gather(&scatter(source, hub(source.grid(), target), rotation), target, &Rotation::IDENTITY),
     }
+}
+
+/// A texel's outline tells its inside from its outside only while it is small: coarser grids are cut.
+const FEWEST_TEXELS: usize = 96;
+
+fn cuts(grid: Grid) -> usize {
+    (FEWEST_TEXELS as f64 / grid.texel_count() as f64).sqrt().ceil() as usize
+}
+
+fn cut_grid(grid: Grid, cuts: usize) -> Grid {
+    Grid::new(grid.projection(), grid.width() * cuts, grid.height() * cuts)
+        .unwrap_or_else(|_| unreachable!("a multiple of a shape keeps its rule"))
+}
+
+/// Every texel repeated `cuts`² times.
+fn cut(source: &Environment, cuts: usize) -> Environment {
+    let grid = cut_grid(source.grid(), cuts);
+    let (width, height) = (grid.width(), grid.height());
+    let texel = |i: usize| source.texel(i / (width * height), i % width / cuts, i / width % height / cuts);
+    let texels = (0..grid.texel_count()).map(texel).collect();
+    Environment::new(grid, texels).unwrap_or_else(|_| unreachable!("one texel for each place"))
+}
+
+/// The mean of each `cuts`² texels by solid angle.
+fn joined(fine: &Environment, target: Grid, cuts: usize) -> Environment {
+    let joined = |i: usize| {
+        let (face, y, x) =
+            (i / (target.width() * target.height()), i / target.width() % target.height(), i % target.width());
+        let mut sum = [0.0; 4];
+        for (dx, dy) in (0..cuts * cuts).map(|k| (k % cuts, k / cuts)) {
+            let (x, y) = (x * cuts + dx, y * cuts + dy);
+            let omega = fine.grid().texel_solid_angle(face, x, y);
+            let texel = fine.texel(face, x, y);
+            for c in 0..3 {
+                sum[c] += omega * f64::from(texel[c]);
+            }
+            sum[3] += omega;
+        }
+        [0, 1, 2].map(|c| if sum[3] > 0.0 { (sum[c] / sum[3]) as f32 } else { 0.0 })
+    };
+    let texels = (0..target.texel_count()).map(joined).collect();
+    Environment::new(target, texels).unwrap_or_else(|_| unreachable!("one texel for each place"))
 }
 
 /// A lat-long grid whose texels are at most half as large as those of either side.

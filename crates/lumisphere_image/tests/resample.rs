@@ -1,5 +1,5 @@
 //! What area-exact resampling promises: constants, energy, sign, linear functions, the sense of rotation, threads.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 use lumisphere_image::{Environment, Rgb, resample, sample_nearest};
 use lumisphere_sphere::Projection::{
@@ -224,7 +224,7 @@ fn linear_error(source: &Environment, to: Grid, rotation: &Rotation) -> f64 {
     let back = rotation.inverse();
     let mut worst = 0.0_f64;
     for (f, x, y) in places(to).filter(|&(f, x, y)| to.texel_solid_angle(f, x, y) > 0.0) {
-        let integral = direction_integral(&to.texel_outline(f, x, y, 5e-3));
+        let integral = direction_integral(&to.texel_outline(f, x, y, 1e-3));
         let mean = back.apply(scale(integral, 1.0 / to.texel_solid_angle(f, x, y)));
         let found = target.texel(f, x, y).map(f64::from);
         worst = (0..3).map(|c| (found[c] - 2.0 - mean[c]).abs()).fold(worst, f64::max);
