@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 /// texels, not the patches of constant radiance that they stand for.
 const TEXELS_PER_ALPHA: f64 = 0.75;
 /// Fewer rows are too few even for the widest lobe: the sum over texels of a constant is off by 1e-4 and more.
-const MIN_ROWS: usize = 128;
+const MIN_ROWS: usize = 256;
 /// Rows beyond which a picture is not cut finer.
 const MAX_REFINED_ROWS: usize = 2048;
 /// A picture in another projection is laid on this many times its own rows, within bounds.

@@ -22,7 +22,8 @@ pub enum LobeShape {
     /// max(cos θ, 0)^s about r, s = 2/α² - 2: the exponent that Walter et al. (EGSR 2007, §5.2) and Karis (2013) match
     /// to α for the *half* vector, used unchanged for the angle from r, so the lobe is about half as wide as [`LobeShape::BlinnPhong`].
     Phong,
-    /// [`Ndf::Charlie`] of the half vector: it grows away from r.
+    /// [`Ndf::Charlie`] of the half vector: it grows away from r. Below α = 0.015 it is a line on the horizon, and the spectral
+    /// baker's error reaches 2e-3.
     Charlie,
     /// max(cos θ, 0), whatever the weight and α: the diffuse lobe.
     Cosine,

@@ -14,8 +14,8 @@ use lumisphere_sphere::Vec3;
 use lumisphere_sphere::vector::{add, dot, normalize, sub};
 use std::f64::consts::{PI, TAU};
 
-/// Largest distance of an arc from its chord, over the smaller of its length and a texel of the lat-long grid.
-const LARGEST_BULGE: f64 = 2e-3;
+/// Largest distance of an arc from its chord, over the smaller of its length and two texels of the lat-long grid.
+const LARGEST_BULGE: f64 = 1e-3;
 /// A vertex nearer to a pole than this many radians has no azimuth of its own.
 const POLE_RADIUS: f64 = 1e-9;
 /// Splitting stops here even if a chord runs past a pole.
@@ -282,5 +282,5 @@ fn bulges(cells: &LatLongCells, from: &Vertex, to: &Vertex) -> bool {
     // The slant turns by about h along the arc: no arc is quite a meridian.
     let across_squared = ((h_squared - climb_squared) / h_squared).max(h_squared);
     let texel = PI / cells.height.max(cells.width / 2) as f64;
-    height * height * across_squared > LARGEST_BULGE * LARGEST_BULGE * h_squared.min(texel * texel) * cos_squared
+    height * height * across_squared > LARGEST_BULGE * LARGEST_BULGE * h_squared.min(4.0 * texel * texel) * cos_squared
 }

@@ -6,13 +6,13 @@
 //! picture fine enough for both.
 
 use crate::coverage::{Coverage, LatLongCells, Vertex};
-use crate::{Environment, Rgb};
+use crate::{Environment, Rgb, sample_nearest};
 use lumisphere_sphere::{Grid, Projection, Rotation, cube};
 use rayon::prelude::*;
 
-/// How far the outline of a texel with curved edges may leave them, in texels. An edge of curvature about 1 leaves its
-/// chord of length h by h²/8.
-const OUTLINE_ERROR: f64 = 1e-3;
+/// How far the outline of a texel with curved edges may leave them, in texels. An edge of curvature κ leaves its chord of
+/// length h by κ h²/8.
+const OUTLINE_ERROR: f64 = 3e-4;
 /// Rows of target texels that a task gathers; neighbours share their corners.
 const GATHER_BATCH: usize = 8;
 /// Rows of source texels that are spread before their light is added up, in order.
@@ -104,14 +104,15 @@ fn gather(source: &Environment, target: Grid, source_from_target: &Rotation) -> 
             outlines.move_to(batch * GATHER_BATCH + i);
             for (x, texel) in row.iter_mut().enumerate() {
                 coverage.cover(&cells, outlines.texel(x));
-                *texel = mean(&coverage, &cells, source.texels(), grid.width());
+                *texel = mean(&coverage, &cells, source.texels(), grid.width())
+                    .unwrap_or_else(|| outlines.under_centre(source, x));
             }
         }
     });
     Environment::new(target, texels).unwrap_or_else(|_| unreachable!("one texel for each place"))
 }
 
-fn mean(coverage: &Coverage, cells: &LatLongCells, texels: &[Rgb], width: usize) -> Rgb {
+fn mean(coverage: &Coverage, cells: &LatLongCells, texels: &[Rgb], width: usize) -> Option<Rgb> {
     let mut sum = [0.0; 3];
     let mut area = 0.0;
     coverage.visit(cells, |row, column, a| {
@@ -121,7 +122,7 @@ fn mean(coverage: &Coverage, cells: &LatLongCells, texels: &[Rgb], width: usize)
             sum[c] += a * f64::from(texel[c]);
         }
     });
-    if area > 0.0 { sum.map(|s| (s / area) as f32) } else { [0.0; 3] }
+    (area > 0.0).then(|| sum.map(|s| (s / area) as f32))
 }
 
 /// Spreads every texel of any source over a lat-long target.
@@ -206,14 +207,32 @@ impl<'a> RowOutlines<'a> {
         (0..=size).map(corner).collect()
     }
 
+    /// Angle between the points of a texel's outline. Edges are curved by about 1, and by 1/δ at an angle δ from the point
+    /// that the rim of an angular map or mirror ball stands for, +Z.
+    fn outline_step(&self, x: usize) -> f64 {
+        let size = self.grid.texel_solid_angle(self.face, x, self.y).sqrt();
+        let curvature = match (self.grid.projection(), self.grid.texel_direction(self.face, x, self.y)) {
+            (Projection::AngularMap | Projection::MirrorBall, Some(d)) => {
+                1.0 + 1.0 / d[2].clamp(-1.0, 1.0).acos().max(size)
+            }
+            _ => 1.0,
+        };
+        (8.0 * OUTLINE_ERROR * size / curvature).sqrt()
+    }
+
+    /// For slivers at the rim of a disc, too thin to have an outline; black outside the domain.
+    fn under_centre(&self, source: &Environment, x: usize) -> Rgb {
+        let direction = self.grid.texel_direction(self.face, x, self.y);
+        direction.map_or([0.0; 3], |d| sample_nearest(source, self.rotation.apply(d)))
+    }
+
     fn texel(&mut self, x: usize) -> &[Vertex] {
         self.outline.clear();
         if self.grid.projection() == Projection::Cube {
             let [above, below] = &self.corners;
             self.outline.extend([above[x], above[x + 1], below[x + 1], below[x]]);
         } else {
-            let texel = (4.0 * std::f64::consts::PI / self.grid.texel_count() as f64).sqrt();
-            let step = (8.0 * OUTLINE_ERROR * texel).sqrt();
+            let step = self.outline_step(x);
             let (cells, rotation) = (self.cells, self.rotation);
             let outline = self.grid.texel_outline(self.face, x, self.y, step);
             self.outline.extend(outline.into_iter().map(|d| cells.vertex(rotation.apply(d))));
