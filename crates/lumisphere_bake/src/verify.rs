@@ -92,7 +92,7 @@ impl VerifyReport {
 /// `environment` and `settings` are those given to [`crate::bake()`].
 ///
 /// # Errors
-/// As [`crate::bake()`].
+/// As [`crate::bake()`], and [`BakeError::Setting`] for a chain with another number of levels than the settings.
 pub fn verify(
     baked: &BakedEnvironment,
     environment: Environment,
@@ -101,6 +101,7 @@ pub fn verify(
     progress: crate::Progress,
 ) -> Result<VerifyReport, BakeError> {
     settings.validate()?;
+    same_level_count(baked, settings)?;
     progress(crate::Step::Prepare);
     let panorama = source::panorama(environment)?;
     let mirror =
@@ -124,6 +125,16 @@ pub fn verify(
         dfg_error(table, settings.masking)
     });
     Ok(VerifyReport { levels, irradiance, sh_error, dfg_error })
+}
+
+/// A chain of another length was not made with these settings: its levels have no roughness to be held against.
+fn same_level_count(baked: &BakedEnvironment, settings: &BakeSettings) -> Result<(), BakeError> {
+    let found = baked.specular.as_ref().map_or(settings.levels(), |chain| chain.levels.levels().len());
+    if found == settings.levels() {
+        return Ok(());
+    }
+    let expected = "that of the settings";
+    Err(BakeError::Setting { name: "level count of the chain", found: found.to_string(), expected })
 }
 
 /// What a level of this α may miss by (relative RMS).

@@ -275,3 +275,14 @@ fn a_table_with_another_masking_is_caught() {
     let error = checked(&baked, &spoiler.environment, &spoiler.settings, 128).dfg_error.unwrap();
     assert!(error > VerifyReport::DFG_LIMIT, "{error:e}");
 }
+
+#[test]
+fn a_chain_of_another_length_is_refused() {
+    let environment = noise_with_sun(64, 32, 1, 10.0).unwrap();
+    let long = BakeSettings { size: 16, level_count: Some(4), ..BakeSettings::preview() };
+    let short = BakeSettings { level_count: Some(3), ..long.clone() };
+    let baked = bake(environment.clone(), &long, &|_| ()).unwrap();
+    let exact = VerifySettings { texels: 4, quantise: &|texel| texel };
+    let refused = verify(&baked, environment, &short, &exact, &|_| ()).unwrap_err();
+    assert_eq!(refused.to_string(), "level count of the chain must be that of the settings, found 4");
+}
