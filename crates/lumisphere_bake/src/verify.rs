@@ -33,7 +33,7 @@ pub struct LevelReport {
     pub relative_rms: f64,
     /// The same between the exact level and what the format stores of it.
     pub format_rms: f64,
-    /// Largest error of one texel over the texel's exact value (luminance-free: the worst channel).
+    /// Largest error of one texel over the texel's exact value (the worst channel).
     pub worst: f64,
     /// Light of the compared texels over the exact light.
     pub energy: f64,
