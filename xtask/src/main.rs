@@ -1,9 +1,10 @@
-//! The project's own checks and benchmarks: `cargo xtask test`, `arrows`, `bench-peers`.
+//! The project's own checks and benchmarks: `cargo xtask test`, `test-engines`, `arrows`, `bench-peers`.
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for developers talks to them
 
 mod arrows;
 mod bench_peers;
 mod checks;
+mod engines;
 mod findings;
 mod workspace;
 
@@ -14,6 +15,9 @@ const USAGE: &str = "\
 Usage: cargo xtask COMMAND
 
   test [--quick]           run every check; --quick leaves out the slow ones
+  test-engines [--baked DIR] [--only CASE]
+                           load our targets in three.js, Babylon.js, Filament and Bevy, and compare their pictures with
+                           predictions; --baked: files of DIR/ENVIRONMENT/TARGET/ instead of baking
   arrows                   hold the dependencies between the crates against the table
   bench-peers [--scaling]  compare `lumisphere bake` with cmgen; --scaling: time against sizes";
 
@@ -38,6 +42,7 @@ fn run(words: &[&str]) -> Result<ExitCode> {
     let passed = match words {
         ["test"] => checks::run(checks::Extent::All)?,
         ["test", "--quick"] => checks::run(checks::Extent::Quick)?,
+        ["test-engines", choice @ ..] => engines::run(&engines::Choice::parse(choice)?)?,
         ["arrows"] => arrows::run()?,
         ["bench-peers"] => bench_peers::compare()?,
         ["bench-peers", "--scaling"] => bench_peers::scaling()?,

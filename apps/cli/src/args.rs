@@ -1,11 +1,16 @@
 //! The one definition of commands and flags: help, errors, completions and manual pages come from it.
 
 use crate::choices::{
-    CompressionChoice, CurveChoice, EngineChoice, FormatChoice, LayoutChoice, LobeChoice, LookupChoice, MaskingChoice,
-    OutputChoice, ShWindowChoice, WeightChoice,
+    ArrangeChoice, CompressionChoice, ContainerChoice, CurveChoice, DfgChoice, EngineChoice, FaceSideChoice,
+    FormatChoice, IrradianceChoice, LayoutChoice, LobeChoice, LookupChoice, MaskingChoice, OutputChoice,
+    ShWindowChoice, WeightChoice,
 };
-use crate::values::{LowerHemisphere, Repair, YawPitchRoll, parse_bytes, parse_finite, parse_positive, parse_unit};
-use clap::{Args, Parser, Subcommand};
+use crate::values::{
+    LowerHemisphere, Repair, RoughnessList, YawPitchRoll, parse_bytes, parse_face_size, parse_finite, parse_positive,
+    parse_turn, parse_unit,
+};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use lumisphere::sphere::AxisTurn;
 use std::path::PathBuf;
 
 /// Image-based lighting from pictures of the world around: bake it, look into it, measure it.
@@ -20,6 +25,14 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Bake(Box<BakeArgs>),
+    /// List the engines that can be baked for, and what each needs
+    Targets {
+        /// One JSON array on stdout
+        #[arg(long)]
+        json: bool,
+    },
+    Convert(ConvertArgs),
+    Formats(FormatsArgs),
     Inspect(InspectArgs),
     Verify(VerifyArgs),
     /// Print shell completions
@@ -30,34 +43,46 @@ pub(crate) enum Command {
     /// Print a manual page (roff): `lumisphere man bake | man -l -`
     Man {
         /// The command whose page to print; without one, the page of `lumisphere` itself
-        #[arg(value_parser = ["bake", "inspect", "verify", "completions", "man"])]
+        #[arg(value_parser = ["bake", "targets", "convert", "formats", "inspect", "verify", "completions", "man"])]
         command: Option<String>,
     },
 }
 
-const ENV_HELP: &str = "A .hdr, .exr, .png or .ktx2 file, or a built-in environment";
-const ENV_LONG_HELP: &str =
-    "A .hdr, .exr, .png or .ktx2 file, or a built-in environment: builtin:studio, builtin:sky, \
+const ENV_HELP: &str = "A picture (.hdr .exr .png .ktx .ktx2 .dds .env) or a built-in environment";
+const ENVS_HELP: &str = "Pictures (.hdr .exr .png .ktx .ktx2 .dds .env), folders of them, built-in environments";
+const ENV_LONG_HELP: &str = "A .hdr, .exr, .png, .ktx, .ktx2, .dds or .env file, or a built-in environment: builtin:studio, builtin:sky, \
 builtin:furnace, builtin:axes or builtin:one-texel.
 
-All of them take the number of rows, builtin:studio?height=1024. The sky also takes turbidity (2 to 10), elevation and \
+A file with the name of a cube's face (px.hdr, sky_right.png ...) stands for all six if the others lie beside it.
+
+The built-in ones take the number of rows, builtin:studio?height=1024. The sky also takes turbidity (2 to 10), elevation and \
 azimuth of the sun in degrees (azimuth from -Z towards +X) and ground (albedo, 0 to 1): \
 builtin:sky?turbidity=4&elevation=30&azimuth=120 (quote the & from the shell, or write a comma instead).";
 
-/// Bake an environment for image-based lighting
+/// Bake environments for image-based lighting
 ///
-/// Writes specular.ktx2, irradiance.ktx2, skybox.ktx2, sh.json, dfg.ktx2, preview.png and bake.json. All of them appear
-/// when all are ready, or none.
+/// Writes what an engine loads (see `lumisphere targets`), preview.png, bake.json with every setting, and USE.md with the
+/// lines that load the files. All of them appear when all are ready, or none. Several targets get a folder each, and so
+/// do several environments.
 #[derive(Debug, Args)]
 pub(crate) struct BakeArgs {
-    #[arg(value_name = "ENV", default_value = "builtin:studio", help = ENV_HELP, long_help = ENV_LONG_HELP)]
-    pub environment: String,
+    #[arg(value_name = "ENV", default_value = "builtin:studio", help = ENVS_HELP, long_help = ENV_LONG_HELP)]
+    pub environments: Vec<String>,
     /// Folder for the files; made if it is not there [default: bake/<name of ENV>]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Engines to bake for; `lumisphere targets` lists them
+    #[arg(short, long = "target", value_name = "NAME", value_delimiter = ',', default_value = "raw")]
+    pub targets: Vec<String>,
+    /// For the gltf target: the .glb or .gltf that is to carry the light
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
     /// Make only these files (and bake.json)
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub only: Vec<OutputChoice>,
+    /// Leave out environments whose files were made from the same picture with the same settings
+    #[arg(long)]
+    pub resume: bool,
     #[command(flatten)]
     pub chain: ChainArgs,
     #[command(flatten)]
@@ -79,10 +104,10 @@ pub(crate) struct BakeArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Specular chain")]
 pub(crate) struct ChainArgs {
-    /// Face size of level 0 in texels, a power of two
-    #[arg(long, value_name = "N", default_value_t = 256)]
-    pub size: usize,
-    /// Levels, the mirror included [default: down to faces of 8 texels, or what the curve asks for]
+    /// Face size of level 0 in texels, a power of two [default: 256]
+    #[arg(long, value_name = "N")]
+    pub size: Option<usize>,
+    /// Levels, the mirror included [default: what the target asks for; raw: down to faces of 8 texels]
     #[arg(long, value_name = "N")]
     pub levels: Option<usize>,
     /// How levels are computed
@@ -94,9 +119,15 @@ pub(crate) struct ChainArgs {
     /// What the lobe is multiplied by
     #[arg(long, value_enum, default_value_t = WeightChoice::NDotL)]
     pub weight: WeightChoice,
-    /// Which perceptual roughness p each level stands for
-    #[arg(long, value_enum, default_value_t = CurveChoice::Linear)]
-    pub curve: CurveChoice,
+    /// Which perceptual roughness p each level stands for [default: the target's; raw: linear]
+    #[arg(long, value_enum)]
+    pub curve: Option<CurveChoice>,
+    /// Perceptual roughness of each level, such as 0,0.1,0.3,1 (instead of --curve)
+    #[arg(long, value_name = "P,P...")]
+    pub roughness: Option<RoughnessList>,
+    /// Fit the levels to linear interpolation between them, instead of making each exact at its own roughness
+    #[arg(long)]
+    pub fit: bool,
     /// Samples of the monte-carlo engine at p = 1
     #[arg(long, value_name = "N", default_value_t = 1024)]
     pub samples: usize,
@@ -138,6 +169,9 @@ pub(crate) struct PictureArgs {
     /// Layout of the picture [default: the file's own word, else a guess from its shape]
     #[arg(long, value_enum)]
     pub layout: Option<LayoutChoice>,
+    /// What six separate faces, or a strip of them, show
+    #[arg(long, value_enum, default_value_t = FaceSideChoice::Inside)]
+    pub faces: FaceSideChoice,
     /// NaN, infinite and negative texels: neighbours, zero, clamp:MAX or reject
     #[arg(long, value_name = "POLICY", default_value = "neighbours")]
     pub repair: Repair,
@@ -158,12 +192,27 @@ pub(crate) struct PictureArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Files")]
 pub(crate) struct FileArgs {
-    /// Texel format of the cubes; the DFG table is RG32F beside rgba32f, else RG16F
-    #[arg(long, value_enum, default_value_t = FormatChoice::Auto)]
-    pub format: FormatChoice,
-    /// Supercompression of the KTX2 files
-    #[arg(long, value_enum, default_value_t = CompressionChoice::None)]
-    pub compress: CompressionChoice,
+    /// Texel format of textures [default: the target's; raw: rgba16f, or rgba32f for values above 65504]
+    #[arg(long, value_enum)]
+    pub format: Option<FormatChoice>,
+    /// Supercompression of KTX2 files [default: the target's; raw: none]
+    #[arg(long, value_enum)]
+    pub compress: Option<CompressionChoice>,
+    /// File type of chain, irradiance and skybox [default: the target's; raw: ktx2]
+    #[arg(long, value_enum)]
+    pub container: Option<ContainerChoice>,
+    /// How the sphere lies in .hdr and .exr files
+    #[arg(long, value_enum)]
+    pub arrange: Option<ArrangeChoice>,
+    /// What the irradiance cube holds [default: the target's; raw: e]
+    #[arg(long, value_enum)]
+    pub irradiance: Option<IrradianceChoice>,
+    /// File type of the DFG table [default: as the cubes]
+    #[arg(long, value_enum)]
+    pub dfg: Option<DfgChoice>,
+    /// Turn of cubes and harmonics: at direction d they hold the light of turn(d), such as "x y -z"
+    #[arg(long, value_name = "AXES", value_parser = parse_turn, allow_hyphen_values = true)]
+    pub turn: Option<AxisTurn>,
 }
 
 #[derive(Debug, Args)]
@@ -177,17 +226,81 @@ pub(crate) struct CommonArgs {
     pub max_memory: u64,
 }
 
-/// Show what is in a picture or a baked file
+/// Convert between textures and pictures
 ///
-/// Size, layout, format, extremes and means, illuminance, dynamic range, damaged texels; for KTX2 each level.
+/// A texture keeps its levels in another container; a picture, a cross, a strip or six faces become a cube by exact
+/// resampling; a level of a texture becomes a picture. The extension of OUT says what is written: .ktx .ktx2 .dds .env
+/// .hdr .exr
 #[derive(Debug, Args)]
-pub(crate) struct InspectArgs {
-    /// A .hdr, .exr, .png or .ktx2 file, or the sh.json or bake.json of a bake
-    #[arg(value_name = "FILE")]
-    pub file: PathBuf,
-    /// Layout of the picture [default: the file's own word, else a guess from its shape]
+pub(crate) struct ConvertArgs {
+    #[arg(value_name = "IN", help = ENV_HELP, long_help = ENV_LONG_HELP)]
+    pub input: String,
+    /// The file to write; its extension says which
+    #[arg(value_name = "OUT")]
+    pub output: PathBuf,
+    /// Texel format of a texture [default: that of IN where OUT holds it, else as auto]
+    #[arg(long, value_enum)]
+    pub format: Option<FormatChoice>,
+    /// Supercompression of KTX2 files
+    #[arg(long, value_enum, default_value_t = CompressionChoice::None)]
+    pub compress: CompressionChoice,
+    /// Layout of IN, where it is a picture [default: the file's own word, else a guess from its shape]
     #[arg(long, value_enum)]
     pub layout: Option<LayoutChoice>,
+    /// What six separate faces, or a strip of them, show in IN
+    #[arg(long, value_enum, default_value_t = FaceSideChoice::Inside)]
+    pub faces: FaceSideChoice,
+    /// How the sphere lies in a .hdr or .exr OUT [default: as in IN; lat-long for a cube]
+    #[arg(long, value_enum)]
+    pub arrange: Option<ArrangeChoice>,
+    /// OUT holds at direction d what IN holds at turn(d), such as "x y -z"
+    #[arg(long, value_name = "AXES", value_parser = parse_turn, allow_hyphen_values = true)]
+    pub turn: Option<AxisTurn>,
+    /// Face size of a cube made of a picture or of one level [default: about as fine as IN]
+    #[arg(long, value_name = "N", value_parser = parse_face_size)]
+    pub size: Option<usize>,
+    /// Take only this level of IN [default: all for a texture, 0 for a picture]
+    #[arg(long, value_name = "K")]
+    pub level: Option<usize>,
+    /// One JSON object on stdout
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub common: CommonArgs,
+}
+
+/// Measure bytes and errors of every texel format and container
+///
+/// Writes the specular chain of ENV in each, reads it back and compares.
+#[derive(Debug, Args)]
+pub(crate) struct FormatsArgs {
+    #[arg(value_name = "ENV", default_value = "builtin:studio", help = ENV_HELP, long_help = ENV_LONG_HELP)]
+    pub environment: String,
+    /// Face size of level 0 of the chain; the chain of a cube texture is taken as it is
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = parse_face_size)]
+    pub size: usize,
+    /// One JSON object on stdout instead of the table
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub common: CommonArgs,
+}
+
+/// Show what is in a picture or a baked file
+///
+/// Size, layout, format, extremes and means, illuminance, dynamic range, damaged texels; for textures each level.
+#[derive(Debug, Args)]
+pub(crate) struct InspectArgs {
+    /// A .hdr, .exr, .png, .ktx, .ktx2, .dds or .env file, one of six faces, or the sh.json or bake.json of a bake
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Layout of the picture [default: the file's own word, else a guess from its shape]; one of six faces is then looked
+    /// at alone
+    #[arg(long, value_enum)]
+    pub layout: Option<LayoutChoice>,
+    /// What six separate faces, or a strip of them, show
+    #[arg(long, value_enum, default_value_t = FaceSideChoice::Inside)]
+    pub faces: FaceSideChoice,
     /// One JSON object on stdout
     #[arg(long)]
     pub json: bool,
@@ -197,13 +310,15 @@ pub(crate) struct InspectArgs {
 
 /// Measure a bake against the sum over every texel
 ///
-/// Reads the files of DIR, does to ENV what bake.json says was done, and compares: each level's relative RMS, worst texel,
-/// energy and seams, the spherical harmonics and the DFG table. Exits 1 if an error is over the contract.
+/// Reads the files of a folder that `lumisphere bake` made, does to ENV what bake.json says was done, and compares: each
+/// level's relative RMS, worst texel, energy and seams, the spherical harmonics and the DFG table. A cube texture of
+/// another tool is compared with ENV as it is; --target or --curve say what its levels stand for, and --turn how it
+/// is turned. Exits 1 if an error is over the contract.
 #[derive(Debug, Args)]
 pub(crate) struct VerifyArgs {
-    /// The folder that `lumisphere bake` made
-    #[arg(value_name = "DIR")]
-    pub directory: PathBuf,
+    /// The folder that `lumisphere bake` made, or a cube texture of any tool
+    #[arg(value_name = "DIR|FILE")]
+    pub path: PathBuf,
     #[arg(long = "env", value_name = "ENV", help = ENV_HELP, long_help = ENV_LONG_HELP)]
     pub environment: String,
     /// Texels of each level to compare, beside its brightest and those along the edges
@@ -213,5 +328,44 @@ pub(crate) struct VerifyArgs {
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]
+    pub foreign: ForeignArgs,
+    #[command(flatten)]
     pub common: CommonArgs,
+}
+
+/// What a file says nothing of.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "A file of another tool")]
+pub(crate) struct ForeignArgs {
+    /// The engine it was made for: curve and turn of that target
+    #[arg(long, value_name = "NAME")]
+    pub target: Option<String>,
+    /// Which perceptual roughness each level stands for [default: the target's]
+    #[arg(long, value_enum)]
+    pub curve: Option<CurveChoice>,
+    /// Turn of the cube: at direction d it holds the light of turn(d) [default: the target's, else none]
+    #[arg(long, value_name = "AXES", value_parser = parse_turn, allow_hyphen_values = true)]
+    pub turn: Option<AxisTurn>,
+    /// What the cube holds [default: specular for several levels]
+    #[arg(long, value_enum)]
+    pub holds: Option<HoldsChoice>,
+    /// Layout of ENV [default: the file's own word, else a guess from its shape]
+    #[arg(long, value_enum)]
+    pub layout: Option<LayoutChoice>,
+    /// What six faces of ENV, or a strip of them, show
+    #[arg(long, value_enum, value_name = "SIDE")]
+    pub faces: Option<FaceSideChoice>,
+}
+
+/// What a cube of another tool holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum HoldsChoice {
+    /// Radiance prefiltered for specular reflection
+    Specular,
+    /// E, no 1/pi inside
+    Irradiance,
+    /// E/pi
+    FormFactor,
+    /// The environment itself
+    Skybox,
 }

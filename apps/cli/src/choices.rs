@@ -3,8 +3,13 @@
 use clap::ValueEnum;
 use lumisphere::bake::{Engine, RoughnessCurve, SampleLookup};
 use lumisphere::bsdf::{LobeShape, LobeWeight, Masking};
+use lumisphere::image::{CubeLayout, FaceSide};
 use lumisphere::sphere::Projection;
-use lumisphere_codec::ktx2::{Supercompression, TexelFormat};
+use lumisphere::target::{
+    Container, FlatFile, FlatLayout, Form, IrradianceUnit, Language, ShWindow, TexelChoice, TextureContainer,
+};
+use lumisphere_codec::TexelFormat;
+use lumisphere_codec::ktx2::Supercompression;
 use serde::{Deserialize, Serialize};
 
 /// Declares the words and the conversion both ways of one choice.
@@ -71,6 +76,8 @@ choice! {
         Unity = RoughnessCurve::Unity,
         /// lod = n - 2 + 1.2 log2 p
         Unreal = RoughnessCurve::Unreal,
+        /// lod = 0.8 log2(alpha size)
+        Babylon = RoughnessCurve::Babylon,
     }
 }
 
@@ -127,73 +134,158 @@ choice! {
 /// Level 3 is quick; on half floats slower ones gain a few percent.
 const ZSTD: Supercompression = Supercompression::Zstd(3);
 
-/// Texel format of the cubes, before `auto` has been decided.
+/// Texel format of textures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum FormatChoice {
     /// rgba16f, or rgba32f if a value is above 65504
     Auto,
     Rgba32f,
     Rgba16f,
+    /// For KTX1, KTX2 and DDS
+    Rgb32f,
+    /// For KTX1 and KTX2
+    Rgb16f,
     Rgb9e5,
     B10g11r11,
-}
-
-/// Texel format of the cubes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum CubeFormat {
-    Rgba32f,
-    Rgba16f,
-    Rgb9e5,
-    B10g11r11,
+    /// 1 byte a texel, for KTX2 and DDS
+    Bc6h,
+    /// 1 byte a texel, for KTX2
+    UastcHdr,
 }
 
 impl FormatChoice {
-    /// The format for texels whose largest channel is `peak`.
-    pub(crate) fn resolve(self, peak: f32) -> CubeFormat {
-        match self {
-            Self::Auto if peak > LARGEST_HALF => CubeFormat::Rgba32f,
-            Self::Auto | Self::Rgba16f => CubeFormat::Rgba16f,
-            Self::Rgba32f => CubeFormat::Rgba32f,
-            Self::Rgb9e5 => CubeFormat::Rgb9e5,
-            Self::B10g11r11 => CubeFormat::B10g11r11,
-        }
-    }
-}
-
-/// The largest value of a half float.
-pub(crate) const LARGEST_HALF: f32 = 65504.0;
-
-impl CubeFormat {
-    /// The codec's value.
-    pub(crate) fn texel_format(self) -> TexelFormat {
-        match self {
+    /// The format, or `None` where the largest value decides.
+    pub(crate) fn value(self) -> Option<TexelFormat> {
+        Some(match self {
+            Self::Auto => return None,
             Self::Rgba32f => TexelFormat::Rgba32F,
             Self::Rgba16f => TexelFormat::Rgba16F,
+            Self::Rgb32f => TexelFormat::Rgb32F,
+            Self::Rgb16f => TexelFormat::Rgb16F,
             Self::Rgb9e5 => TexelFormat::Rgb9e5,
             Self::B10g11r11 => TexelFormat::B10g11r11,
-        }
-    }
-
-    /// The format of the two-channel DFG table beside cubes of this format.
-    pub(crate) fn dfg_format(self) -> TexelFormat {
-        if self == Self::Rgba32f { TexelFormat::Rg32F } else { TexelFormat::Rg16F }
+            Self::Bc6h => TexelFormat::Bc6hUfloat,
+            Self::UastcHdr => TexelFormat::UastcHdr4x4,
+        })
     }
 }
 
-/// Filter of the irradiance forms in `sh.json`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum ShWindowChoice {
-    None,
-    /// As wide as the bands exported
-    Hann,
-    /// As wide as the bands exported
-    Lanczos,
-    /// As wide as the bands exported
-    Sinc4,
-    /// The weakest Hann window that leaves no negative irradiance
-    Nonnegative,
+choice! {
+    /// Files that cubes go into.
+    ContainerChoice = Container {
+        Ktx1 = Container::Ktx1,
+        Ktx2 = Container::Ktx2,
+        Dds = Container::Dds,
+        /// Babylon.js, the chain alone
+        Env = Container::Env,
+        Hdr = Container::Hdr,
+        Exr = Container::Exr,
+    }
+}
+
+/// How the sphere lies in flat pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ArrangeChoice {
+    /// All levels in one picture, 1 texel about each
+    LatLong,
+    /// All levels in one picture, 1 texel about each
+    Octahedral,
+    /// +X -X +Y -Y +Z -Z side by side, as graphics APIs store them
+    Strip,
+    /// The same one below the other
+    Column,
+    HorizontalCross,
+    /// Debevec's, seen from inside
+    VerticalCross,
+    /// Six files, as graphics APIs store them
+    Faces,
+    /// Six files that look right from inside
+    FacesInside,
+}
+
+impl ArrangeChoice {
+    /// The library's value.
+    pub(crate) fn value(self) -> FlatLayout {
+        match self {
+            Self::LatLong => FlatLayout::LatLong,
+            Self::Octahedral => FlatLayout::Octahedral,
+            Self::Strip => FlatLayout::Cube(CubeLayout::Strip, FaceSide::Stored),
+            Self::Column => FlatLayout::Cube(CubeLayout::Column, FaceSide::Stored),
+            Self::HorizontalCross => FlatLayout::Cube(CubeLayout::HorizontalCross, FaceSide::Stored),
+            Self::VerticalCross => FlatLayout::Cube(CubeLayout::VerticalCross, FaceSide::FromInside),
+            Self::Faces => FlatLayout::Faces(FaceSide::Stored),
+            Self::FacesInside => FlatLayout::Faces(FaceSide::FromInside),
+        }
+    }
+}
+
+choice! {
+    /// What a texel of the irradiance cube is.
+    IrradianceChoice = IrradianceUnit {
+        /// E, no 1/pi inside
+        E = IrradianceUnit::Irradiance,
+        /// E/pi, what a white surface reflects
+        EOverPi = IrradianceUnit::FormFactor,
+    }
+}
+
+choice! {
+    /// What six faces show.
+    FaceSideChoice = FaceSide {
+        /// Each looks right from inside: three.js, Humus
+        Inside = FaceSide::FromInside,
+        /// As graphics APIs store them, mirrored when seen from inside
+        Stored = FaceSide::Stored,
+    }
+}
+
+/// File types of the DFG table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DfgChoice {
+    Ktx2,
+    Dds,
+    Exr,
+    /// 16 bit
+    Png,
+    Glsl,
+    Hlsl,
+    Wgsl,
+    C,
+    Rust,
+}
+
+impl DfgChoice {
+    /// The library's value.
+    pub(crate) fn value(self) -> Form {
+        let texture =
+            |container| Form::Texture { container, texels: TexelChoice::Auto, compression: Supercompression::None };
+        match self {
+            Self::Ktx2 => texture(TextureContainer::Ktx2),
+            Self::Dds => texture(TextureContainer::Dds),
+            Self::Exr => Form::Flat { file: FlatFile::Exr, layout: FlatLayout::LatLong },
+            Self::Png => Form::Png16,
+            Self::Glsl => Form::Source(Language::Glsl),
+            Self::Hlsl => Form::Source(Language::Hlsl),
+            Self::Wgsl => Form::Source(Language::Wgsl),
+            Self::C => Form::Source(Language::C),
+            Self::Rust => Form::Source(Language::Rust),
+        }
+    }
+}
+
+choice! {
+    /// Filter of the irradiance forms.
+    ShWindowChoice = ShWindow {
+        None = ShWindow::None,
+        /// As wide as the bands exported
+        Hann = ShWindow::Hann,
+        /// As wide as the bands exported
+        Lanczos = ShWindow::Lanczos,
+        /// As wide as the bands exported
+        Sinc4 = ShWindow::Sinc4,
+        /// The weakest Hann window that leaves no negative irradiance
+        Nonnegative = ShWindow::Nonnegative,
+    }
 }
 
 /// A file of a bake that can be left out.
@@ -202,6 +294,8 @@ pub(crate) enum OutputChoice {
     Specular,
     Irradiance,
     Skybox,
+    /// The lat-long picture of targets that filter by themselves
+    Panorama,
     Sh,
     Dfg,
     Preview,

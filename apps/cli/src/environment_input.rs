@@ -1,23 +1,26 @@
 //! From the word on the command line to an environment that can be baked.
 
 use crate::builtin_source::{BuiltinSource, PREFIX};
-use crate::choices::{LayoutChoice, layout_word};
+use crate::choices::{FaceSideChoice, LayoutChoice, layout_word};
 use crate::timings::Timings;
 use crate::values::{LowerHemisphere, Repair};
 use anyhow::{Context, Result, anyhow, bail};
 use lumisphere::image::{
-    Builtin, Environment, Picture, Repairs, Statistics, adjust_exposure, fill_lower_hemisphere, sanitise,
-    scale_to_illuminance, statistics,
+    Builtin, CubeLayout, Environment, Picture, Repairs, Statistics, adjust_exposure, cube_from_faces, cube_from_flat,
+    face_of_name, fill_lower_hemisphere, sanitise, scale_to_illuminance, statistics,
 };
 use lumisphere::sphere::{Grid, Projection, guess_projection};
 use lumisphere_codec::{Limits, decode_picture, detect};
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
 /// Where an environment comes from.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Source {
     File(PathBuf),
+    /// +X -X +Y -Y +Z -Z.
+    Faces(Box<[PathBuf; 6]>),
     Builtin(BuiltinSource),
 }
 
@@ -34,6 +37,7 @@ impl Source {
     pub(crate) fn place(&self) -> String {
         match self {
             Self::File(path) => path.display().to_string(),
+            Self::Faces(paths) => paths[0].display().to_string(),
             Self::Builtin(builtin) => format!("{PREFIX}{}", builtin.environment.name()),
         }
     }
@@ -41,12 +45,24 @@ impl Source {
     /// A short name: the file's without its extension, or the built-in environment's.
     pub(crate) fn name(&self) -> String {
         match self {
-            Self::File(path) => {
-                path.file_stem().map_or_else(|| "environment".into(), |s| s.to_string_lossy().into_owned())
-            }
+            Self::File(path) => stem(path),
+            Self::Faces(paths) => set_name(&paths[0]),
             Self::Builtin(builtin) => builtin.environment.name().to_owned(),
         }
     }
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "environment".into(), |s| s.to_string_lossy().into_owned())
+}
+
+/// What the names of the six have in common, or else their folder's name.
+fn set_name(first: &Path) -> String {
+    let stem = stem(first);
+    let prefix = face_of_name(&stem).map_or("", |name| name.prefix);
+    let prefix = prefix.trim_end_matches(|c: char| !c.is_alphanumeric());
+    let folder = || first.parent().and_then(Path::file_name).map(|n| n.to_string_lossy().into_owned());
+    if prefix.is_empty() { folder().unwrap_or_else(|| "cube".to_owned()) } else { prefix.to_owned() }
 }
 
 /// What is done to a picture between decoding and baking; kept in `bake.json` so that `verify` can do the same.
@@ -54,6 +70,8 @@ impl Source {
 pub(crate) struct Adjustments {
     /// Overrides what the file says and what its shape suggests.
     pub layout: Option<LayoutChoice>,
+    /// What six faces in files or in a strip show.
+    pub faces: FaceSideChoice,
     pub repair: Repair,
     pub lower_hemisphere: LowerHemisphere,
     /// Stops.
@@ -81,28 +99,83 @@ pub(crate) struct Prepared {
     pub statistics: Statistics,
 }
 
-/// Reads or makes an environment; the caller puts its name in front of an error.
-pub(crate) fn load(source: &Source, layout: Option<LayoutChoice>, limits: Limits, timings: &Timings) -> Result<Loaded> {
-    match source {
-        Source::Builtin(builtin) => {
-            timings.begin("render");
-            let environment = builtin.environment.render(builtin.height);
-            Ok(Loaded { environment, format: "built in".to_owned(), notes: Vec::new() })
+/// The bytes of a source, before they are decoded.
+pub(crate) enum Raw<'a> {
+    File(Vec<u8>),
+    Faces(Vec<Vec<u8>>),
+    Builtin(&'a BuiltinSource),
+}
+
+impl<'a> Raw<'a> {
+    /// Reads all files of a source; the caller puts its name in front of an error.
+    pub(crate) fn read(source: &'a Source, limits: Limits, timings: &Timings) -> Result<Self> {
+        timings.begin("read");
+        Ok(match source {
+            Source::File(path) => Self::File(read_file(path, limits)?),
+            Source::Faces(paths) => {
+                let read = |path: &PathBuf| read_file(path, limits).with_context(|| path.display().to_string());
+                Self::Faces(paths.iter().map(read).collect::<Result<_>>()?)
+            }
+            Source::Builtin(builtin) => Self::Builtin(builtin),
+        })
+    }
+
+    /// A digest of the content that two different contents do not share.
+    pub(crate) fn digest(&self) -> String {
+        let mut hash = Sha256::new();
+        match self {
+            Self::File(bytes) => hash.update(bytes),
+            Self::Faces(faces) => faces.iter().for_each(|bytes| {
+                hash.update(bytes.len().to_le_bytes());
+                hash.update(bytes);
+            }),
+            Self::Builtin(builtin) => hash.update(format!("{builtin:?}")),
         }
-        Source::File(path) => load_file(path, layout, limits, timings),
+        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    /// Decodes, or renders a built-in environment.
+    pub(crate) fn load(self, adjustments: &Adjustments, limits: Limits, timings: &Timings) -> Result<Loaded> {
+        match self {
+            Self::Builtin(builtin) => {
+                timings.begin("render");
+                let environment = builtin.environment.render(builtin.height);
+                Ok(Loaded { environment, format: "built in".to_owned(), notes: Vec::new() })
+            }
+            Self::File(bytes) => {
+                timings.begin("decode");
+                load_file(bytes, adjustments, limits)
+            }
+            Self::Faces(faces) => {
+                timings.begin("decode");
+                load_faces(&faces, adjustments, limits)
+            }
+        }
     }
 }
 
-fn load_file(path: &Path, layout: Option<LayoutChoice>, limits: Limits, timings: &Timings) -> Result<Loaded> {
-    timings.begin("read");
-    let bytes = read_file(path, limits)?;
-    timings.begin("decode");
+/// Reads and decodes.
+pub(crate) fn load(source: &Source, adjustments: &Adjustments, limits: Limits, timings: &Timings) -> Result<Loaded> {
+    Raw::read(source, limits, timings)?.load(adjustments, limits, timings)
+}
+
+fn load_file(bytes: Vec<u8>, adjustments: &Adjustments, limits: Limits) -> Result<Loaded> {
     let format = detect(&bytes).map_or_else(String::new, |f| f.to_string());
     let mut picture = decode_picture(&bytes, &limits)?;
     drop(bytes);
     let notes = std::mem::take(&mut picture.notes);
-    let environment = lay_out(picture, layout)?;
+    let environment = lay_out(picture, adjustments)?;
     Ok(Loaded { environment, format, notes })
+}
+
+fn load_faces(faces: &[Vec<u8>], adjustments: &Adjustments, limits: Limits) -> Result<Loaded> {
+    // Each may take its sixth.
+    let share = Limits { max_bytes: limits.max_bytes / 6 };
+    let format = faces.first().and_then(|bytes| detect(bytes)).map_or_else(String::new, |f| f.to_string());
+    let pictures: Vec<Picture> = faces.iter().map(|bytes| decode_picture(bytes, &share)).collect::<Result<_, _>>()?;
+    let pictures: [Picture; 6] = pictures.try_into().map_err(|_| anyhow!("expected six faces"))?;
+    let environment = cube_from_faces(&pictures, adjustments.faces.value())?;
+    Ok(Loaded { environment, format: format!("six faces, {format}"), notes: Vec::new() })
 }
 
 /// The whole file, unless it alone is larger than what may be decoded.
@@ -126,13 +199,13 @@ fn missing(path: &Path, error: std::io::Error) -> anyhow::Error {
 }
 
 /// The layout asked for, else the file's own word, else the guess from the shape.
-fn lay_out(picture: Picture, layout: Option<LayoutChoice>) -> Result<Environment> {
+fn lay_out(picture: Picture, adjustments: &Adjustments) -> Result<Environment> {
     let (width, height) = (picture.width, picture.height);
-    let projection = layout
-        .map(LayoutChoice::value)
-        .or(picture.projection)
-        .or_else(|| guess_projection(width, height))
-        .ok_or_else(|| unknown_layout(width, height))?;
+    let wanted = adjustments.layout.map(LayoutChoice::value).or(picture.projection);
+    if wanted.is_none() && CubeLayout::guess(width, height) == Some(CubeLayout::Strip) {
+        return Ok(cube_from_flat(&picture, CubeLayout::Strip, adjustments.faces.value())?);
+    }
+    let projection = wanted.or_else(|| guess_projection(width, height)).ok_or_else(|| unknown_layout(width, height))?;
     let face_height = if projection == Projection::Cube { strip_face(width, height)? } else { height };
     let grid = Grid::new(projection, width, face_height)?;
     Ok(Environment::new(grid, picture.texels)?)
@@ -148,7 +221,7 @@ fn strip_face(width: usize, height: usize) -> Result<usize> {
 fn unknown_layout(width: usize, height: usize) -> anyhow::Error {
     anyhow!(
         "found {width}x{height} texels, expected a shape that tells the layout (2:1 lat-long, 1:1 angular, 4:3 or 3:4 \
-         cross, 1:6 cube); name it with --layout"
+         cross, 1:6 or 6:1 cube); name it with --layout"
     )
 }
 

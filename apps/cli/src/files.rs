@@ -2,9 +2,13 @@
 //!
 //! Each file is written under a temporary name in its own folder and renamed when all of them are there. An interrupt
 //! or an error before that removes the temporary files, and the folders that were made for them.
+//!
+//! A program that is killed outright cannot clean up, so its temporary files stay. What has its final name is whole even
+//! then: while files are being renamed there is no record of them.
 
+use crate::record;
 use anyhow::{Context, Result, anyhow};
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tempfile::{Builder, NamedTempFile};
@@ -65,15 +69,25 @@ impl Stage {
         Ok(())
     }
 
-    /// Gives every file its name.
+    /// Gives every file its name, in the order of writing. Older records that will be replaced are removed first: at no
+    /// moment does a record lie beside files that it does not describe.
     pub(crate) fn publish(&self) -> Result<()> {
         let mut staged = self.lock();
+        reach_disk(&staged.files)?;
+        for (_, path) in staged.files.iter().filter(|(_, path)| path.ends_with(record::FILE)) {
+            remove_if_there(path).with_context(|| path.display().to_string())?;
+        }
         while !staged.files.is_empty() {
             let (file, path) = staged.files.remove(0);
             file.persist(&path).map_err(|error| error.error).with_context(|| path.display().to_string())?;
         }
         staged.folders.clear();
         Ok(())
+    }
+
+    /// Gives up what is not published.
+    pub(crate) fn discard(&self) {
+        self.lock().discard();
     }
 
     fn make_folder(&self, folder: &Path) -> Result<()> {
@@ -116,6 +130,29 @@ impl Drop for Stage {
     }
 }
 
+/// Waits until the files are on the disk: otherwise a power cut may leave an empty file under a final name, and a full
+/// network disk may say so only when nobody listens any more. Several wait at once: a journal then takes them together.
+fn reach_disk(files: &[(NamedTempFile, PathBuf)]) -> Result<()> {
+    let wait =
+        |(file, path): &(NamedTempFile, PathBuf)| file.as_file().sync_all().with_context(|| path.display().to_string());
+    for some in files.chunks(16) {
+        std::thread::scope(|scope| {
+            let waiting: Vec<_> = some.iter().map(|one| scope.spawn(move || wait(one))).collect();
+            waiting
+                .into_iter()
+                .try_for_each(|w| w.join().unwrap_or_else(|_| Err(anyhow!("waiting for the disk failed"))))
+        })?;
+    }
+    Ok(())
+}
+
+fn remove_if_there(path: &Path) -> std::io::Result<()> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
 fn temporary(folder: &Path) -> std::io::Result<NamedTempFile> {
     let mut builder = Builder::new();
     builder.prefix(".lumisphere-").suffix(".part");
@@ -155,5 +192,19 @@ mod tests {
         drop(stage);
         assert_eq!(std::fs::read(root.path().join("x")).unwrap(), b"new");
         assert_eq!(std::fs::read_dir(root.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn an_older_record_is_gone_before_any_other_file_is_replaced() {
+        let root = tempfile::tempdir().unwrap();
+        let record = root.path().join(record::FILE);
+        std::fs::write(&record, b"old").unwrap();
+        let stage = Stage::default();
+        stage.write(root.path(), &[("first", b"new"), (record::FILE, b"new")]).unwrap();
+        // The first rename fails, as if the program ended there.
+        std::fs::create_dir(root.path().join("first")).unwrap();
+        assert!(stage.publish().is_err());
+        drop(stage);
+        assert!(!record.exists());
     }
 }

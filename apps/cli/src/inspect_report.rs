@@ -1,5 +1,6 @@
 //! What `inspect` found, as text and as JSON.
 
+use crate::choices::{FaceSideChoice, word};
 use crate::output::{HEADING, figure, size_text};
 use crate::record::{ChannelRecord, StatisticsRecord};
 use serde::Serialize;
@@ -23,21 +24,41 @@ pub(crate) enum Report {
         statistics: Box<StatisticsRecord>,
         notes: Vec<String>,
     },
-    /// A KTX2 texture.
-    Texture(TextureReport),
+    /// A texture.
+    Texture(Box<TextureReport>),
+    /// Six files.
+    Faces(FacesReport),
     /// A JSON file of a bake, as it is.
     Json(serde_json::Value),
 }
 
-/// A KTX2 texture.
+/// The six files of a cube.
+#[derive(Debug, Serialize)]
+pub(crate) struct FacesReport {
+    /// +X -X +Y -Y +Z -Z.
+    pub files: Vec<String>,
+    pub file_bytes: usize,
+    /// Of a face.
+    pub size: usize,
+    pub seen_from: FaceSideChoice,
+    pub statistics: StatisticsRecord,
+}
+
+/// A texture of any container.
 #[derive(Debug, Serialize)]
 pub(crate) struct TextureReport {
+    pub container: String,
     pub format: String,
     pub file_bytes: usize,
     pub cube: bool,
+    pub faces: usize,
     /// Red and green only.
     pub two_channels: bool,
     pub metadata: BTreeMap<String, String>,
+    /// Of a `.env`.
+    pub lod_generation_scale: Option<f64>,
+    /// E/pi of order 2 in Filament's form, from the key `sh` or a spherical polynomial.
+    pub form_factor_nine: Option<[[f64; 3]; 9]>,
     pub levels: Vec<LevelReport>,
 }
 
@@ -68,6 +89,7 @@ impl Report {
                     .and_then(|()| notes.iter().try_for_each(|n| writeln!(text, "  {n}")))
             }
             Self::Texture(texture) => texture.write(&mut text),
+            Self::Faces(faces) => faces.write(&mut text),
             Self::Json(object) => json_text(&mut text, object),
         };
         text
@@ -110,13 +132,29 @@ fn channels(text: &mut String, s: &StatisticsRecord, figures: Figures) -> std::f
     writeln!(text, "  damaged      {} NaN, {} infinite, {} negative texels", s.nan, s.infinite, s.negative)
 }
 
+impl FacesReport {
+    fn write(&self, text: &mut String) -> std::fmt::Result {
+        let Self { files, file_bytes, size, seen_from, statistics } = self;
+        let side = word(*seen_from);
+        writeln!(
+            text,
+            "  six faces of {size}x{size}, {}, read as --faces {side}; --layout looks at one alone",
+            size_text(*file_bytes)
+        )?;
+        writeln!(text, "  {}", files.join(" "))?;
+        channels(text, statistics, Figures::Sphere)
+    }
+}
+
 impl TextureReport {
     fn write(&self, text: &mut String) -> std::fmt::Result {
         let Some(base) = self.levels.first() else { return Ok(()) };
         let kind = if self.cube { "cube" } else { "2D" };
         writeln!(
             text,
-            "  KTX2 {kind}, {}, {}x{}, {} levels, {}",
+            "  {} {kind}, {} faces, {}, {}x{}, {} levels, {}",
+            self.container,
+            self.faces,
             self.format,
             base.width,
             base.height,
@@ -124,6 +162,13 @@ impl TextureReport {
             size_text(self.file_bytes)
         )?;
         self.metadata.iter().try_for_each(|(key, value)| writeln!(text, "  {key} = {value}"))?;
+        if let Some(scale) = self.lod_generation_scale {
+            writeln!(text, "  lodGenerationScale = {scale}")?;
+        }
+        if let Some(nine) = &self.form_factor_nine {
+            let line = |i: usize| nine[i].map(figure).join(" ");
+            writeln!(text, "  E/pi of order 2: 00 {}; 1-1 {}; 10 {}; 11 {} ...", line(0), line(1), line(2), line(3))?;
+        }
         channels(text, &base.statistics, if self.cube { Figures::Sphere } else { Figures::Texels })?;
         writeln!(text, "{HEADING}  level    size        mean red      green       blue{HEADING:#}")?;
         for level in &self.levels {

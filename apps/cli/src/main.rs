@@ -2,22 +2,39 @@
 
 mod args;
 mod bake_command;
+mod bake_environment;
 mod builtin_source;
 mod choices;
-mod encode;
+mod convert_command;
+mod convert_content;
+mod convert_harmonics;
+mod convert_output;
 mod environment_input;
+mod environments;
 mod files;
+mod formats_command;
+mod formats_report;
 mod inspect_command;
 mod inspect_report;
+mod model_input;
 mod output;
 mod preview;
 mod progress;
 mod record;
-mod sh_file;
+mod resume;
 mod summary;
+mod target_plan;
+mod targets_command;
 mod timings;
+mod usage;
 mod values;
 mod verify_command;
+mod verify_files;
+mod verify_foreign;
+mod verify_format;
+mod verify_measure;
+mod verify_orientation;
+mod verify_own;
 mod verify_report;
 
 use anyhow::{Context, Result, anyhow};
@@ -45,6 +62,15 @@ fn run(command: Command) -> Result<ExitCode> {
         Command::Bake(args) => {
             set_threads(args.common.threads)?;
             bake_command::run(&args)?;
+        }
+        Command::Targets { json } => targets_command::run(json)?,
+        Command::Convert(args) => {
+            set_threads(args.common.threads)?;
+            convert_command::run(&args)?;
+        }
+        Command::Formats(args) => {
+            set_threads(args.common.threads)?;
+            formats_command::run(&args)?;
         }
         Command::Inspect(args) => {
             set_threads(args.common.threads)?;

@@ -2,14 +2,15 @@
 
 use crate::args::BakeArgs;
 use crate::choices::{
-    CompressionChoice, CubeFormat, CurveChoice, EngineChoice, LobeChoice, LookupChoice, MaskingChoice, ShWindowChoice,
-    WeightChoice, layout_word,
+    EngineChoice, LobeChoice, LookupChoice, MaskingChoice, ShWindowChoice, WeightChoice, layout_word,
 };
 use crate::environment_input::{Adjustments, Prepared};
+use crate::target_plan::PlannedTarget;
 use crate::values::YawPitchRoll;
 use anyhow::{Context, Result, bail};
-use lumisphere::bake::{BakeSettings, MonteCarloSettings, Outputs};
+use lumisphere::bake::{BakeSettings, ChainSettings, LevelKernels, MonteCarloSettings, Outputs, RoughnessCurve};
 use lumisphere::image::{ChannelStatistics, Repairs, Statistics};
+use lumisphere::target::{Content, IrradianceUnit};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,7 +20,7 @@ pub(crate) const FILE: &str = "bake.json";
 /// What `kind` says.
 pub(crate) const KIND: &str = "lumisphere bake";
 /// Raised when a reader of an older number would misread the file.
-pub(crate) const FORMAT_VERSION: u32 = 1;
+pub(crate) const FORMAT_VERSION: u32 = 2;
 
 /// The whole file.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -28,6 +29,8 @@ pub(crate) struct Record {
     pub format_version: u32,
     /// Version of the program that baked.
     pub lumisphere: String,
+    /// Digest of the picture's file and of everything that decides what is made of it.
+    pub digest: String,
     pub input: InputRecord,
     pub adjustments: Adjustments,
     pub settings: SettingsRecord,
@@ -171,8 +174,15 @@ impl From<&Statistics> for StatisticsRecord {
 }
 
 /// The settings of the bake.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SettingsRecord {
+    pub target: String,
+    /// Flags that replaced choices of the target.
+    pub overrides: Vec<String>,
+    /// Cubes and harmonics hold at direction d the light of turn(d).
+    pub turn: String,
+    /// The same for lat-long pictures.
+    pub panorama_turn: String,
     pub size: usize,
     pub level_count: usize,
     pub skybox_size: usize,
@@ -183,25 +193,30 @@ pub(crate) struct SettingsRecord {
     pub engine: EngineChoice,
     pub lobe: LobeChoice,
     pub weight: WeightChoice,
-    pub curve: CurveChoice,
+    /// In words; the levels' own roughness is listed beside.
+    pub curve: String,
+    /// Whether levels are fitted to linear interpolation.
+    pub fit: bool,
     pub masking: MaskingChoice,
     pub samples: usize,
     pub locality: f64,
     pub lookup: LookupChoice,
     /// Degrees.
     pub rotate: YawPitchRoll,
-    /// Decided after the bake where `auto` was asked for.
-    pub format: CubeFormat,
-    pub compress: CompressionChoice,
 }
 
 impl SettingsRecord {
-    /// From the command line, with the format that was decided.
-    pub(crate) fn new(args: &BakeArgs, settings: &BakeSettings, format: CubeFormat) -> Self {
+    /// From the command line and what the target made of it.
+    pub(crate) fn new(args: &BakeArgs, planned: &PlannedTarget, settings: &BakeSettings) -> Self {
+        let (target, chain) = (&planned.target, &planned.chain);
         Self {
-            size: args.chain.size,
-            level_count: settings.levels(),
-            skybox_size: args.sizes.skybox_size.unwrap_or(args.chain.size),
+            target: target.name.to_owned(),
+            overrides: planned.overrides.iter().map(|s| (*s).to_owned()).collect(),
+            turn: target.turn.to_string(),
+            panorama_turn: target.panorama_turn.to_string(),
+            size: chain.size,
+            level_count: chain.levels(),
+            skybox_size: settings.skybox_size.unwrap_or(chain.size),
             irradiance_size: args.sizes.irradiance_size,
             dfg_size: args.sizes.dfg_size,
             sh_bands: args.sizes.sh_bands,
@@ -209,22 +224,31 @@ impl SettingsRecord {
             engine: args.chain.engine,
             lobe: args.chain.lobe,
             weight: args.chain.weight,
-            curve: args.chain.curve,
+            curve: format!("{:?}", chain.curve).to_lowercase(),
+            fit: args.chain.fit,
             masking: args.sizes.masking,
             samples: args.chain.samples,
             locality: args.chain.locality,
             lookup: args.chain.lookup,
             rotate: args.picture.rotate,
-            format,
-            compress: args.files.compress,
+        }
+    }
+
+    /// The library's settings of the chain whose levels are these.
+    pub(crate) fn chain_settings(&self, levels: &[LevelRecord]) -> ChainSettings {
+        ChainSettings {
+            size: self.size,
+            level_count: Some(self.level_count),
+            curve: RoughnessCurve::Levels(levels.iter().map(|l| l.perceptual_roughness).collect()),
+            kernels: if self.fit { LevelKernels::Fitted } else { LevelKernels::Exact },
+            ..ChainSettings::default()
         }
     }
 
     /// The library's settings.
-    pub(crate) fn bake_settings(&self, outputs: Outputs) -> BakeSettings {
+    pub(crate) fn bake_settings(&self, levels: &[LevelRecord], outputs: Outputs) -> BakeSettings {
         BakeSettings {
-            size: self.size,
-            level_count: Some(self.level_count),
+            chains: if levels.is_empty() { Vec::new() } else { vec![self.chain_settings(levels)] },
             skybox_size: Some(self.skybox_size),
             irradiance_size: self.irradiance_size,
             sh_bands: self.sh_bands,
@@ -233,7 +257,6 @@ impl SettingsRecord {
             engine: self.engine.value(),
             lobe: self.lobe.value(),
             weight: self.weight.value(),
-            curve: self.curve.value(),
             rotation: self.rotate.rotation(),
             monte_carlo: MonteCarloSettings {
                 samples: self.samples,
@@ -256,14 +279,14 @@ pub(crate) struct LevelRecord {
 
 impl LevelRecord {
     /// The levels that settings ask for.
-    pub(crate) fn all(settings: &BakeSettings) -> Vec<Self> {
+    pub(crate) fn all(chain: &ChainSettings) -> Vec<Self> {
         let level = |(lod, p): (usize, lumisphere::bsdf::PerceptualRoughness)| Self {
             lod,
-            size: (settings.size >> lod).max(1),
+            size: (chain.size >> lod).max(1),
             perceptual_roughness: p.value(),
             alpha: p.to_alpha().value(),
         };
-        settings.roughness().into_iter().enumerate().map(level).collect()
+        chain.roughness().into_iter().enumerate().map(level).collect()
     }
 }
 
@@ -271,12 +294,52 @@ impl LevelRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct FileRecord {
     pub content: String,
+    pub holds: Holds,
+    /// Texel format of a texture.
+    pub texels: Option<String>,
     pub bytes: usize,
     /// Values that the format could not hold.
     pub clamped: usize,
 }
 
+/// What of the lighting a file holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Holds {
+    Specular,
+    /// E.
+    Irradiance,
+    /// E/pi.
+    FormFactor,
+    Skybox,
+    Panorama,
+    Harmonics,
+    Dfg,
+    /// For people.
+    Text,
+    Picture,
+}
+
+impl From<Content> for Holds {
+    fn from(content: Content) -> Self {
+        match content {
+            Content::Specular => Self::Specular,
+            Content::Irradiance(IrradianceUnit::Irradiance) => Self::Irradiance,
+            Content::Irradiance(IrradianceUnit::FormFactor) => Self::FormFactor,
+            Content::Skybox => Self::Skybox,
+            Content::Panorama => Self::Panorama,
+            Content::Harmonics => Self::Harmonics,
+            Content::Dfg => Self::Dfg,
+        }
+    }
+}
+
 impl Record {
+    /// The file that holds this, if one does.
+    pub(crate) fn file_that(&self, holds: impl Fn(Holds) -> bool) -> Option<&str> {
+        self.files.iter().find(|(_, file)| holds(file.holds)).map(|(name, _)| name.as_str())
+    }
+
     /// Reads the record of a bake.
     pub(crate) fn read(directory: &Path) -> Result<Self> {
         let path = directory.join(FILE);

@@ -1,7 +1,7 @@
 //! Values of flags that are more than a word or a number.
 
 use lumisphere::image::RepairPolicy;
-use lumisphere::sphere::Rotation;
+use lumisphere::sphere::{AxisTurn, Rotation};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
@@ -73,6 +73,24 @@ impl FromStr for LowerHemisphere {
     }
 }
 
+/// `--roughness`: perceptual roughness of each level.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct RoughnessList(pub Vec<f64>);
+
+impl FromStr for RoughnessList {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let list: Option<Vec<f64>> = text.split(',').map(|p| p.trim().parse().ok()).collect();
+        list.map(Self).ok_or_else(|| "expected numbers with commas between them, such as 0,0.1,0.3,1".to_owned())
+    }
+}
+
+/// `--turn`.
+pub(crate) fn parse_turn(text: &str) -> Result<AxisTurn, String> {
+    text.parse().map_err(|error: lumisphere::sphere::AxisTurnError| error.to_string())
+}
+
 /// `--rotate`: degrees.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct YawPitchRoll {
@@ -118,6 +136,13 @@ pub(crate) fn parse_finite(text: &str) -> Result<f64, String> {
 /// A finite number above 0.
 pub(crate) fn parse_positive(text: &str) -> Result<f64, String> {
     number(text).filter(|n| *n > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
+}
+
+/// Texels along the side of a face.
+pub(crate) fn parse_face_size(text: &str) -> Result<usize, String> {
+    const LARGEST: usize = 8192;
+    let size = text.parse().ok().filter(|n| (1..=LARGEST).contains(n));
+    size.ok_or_else(|| format!("expected a number of texels from 1 to {LARGEST}"))
 }
 
 fn number(text: &str) -> Option<f64> {

@@ -6,3 +6,4 @@ pub use lumisphere_bsdf as bsdf;
 pub use lumisphere_image as image;
 pub use lumisphere_sh as sh;
 pub use lumisphere_sphere as sphere;
+pub use lumisphere_target as target;

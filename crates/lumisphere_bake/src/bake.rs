@@ -1,22 +1,24 @@
 //! Environment in, lighting out.
 
-use crate::cube_directions::CubeDirections;
+use crate::level_directions::LevelDirections;
+use crate::level_kernel::LevelKernel;
 use crate::monte_carlo::MonteCarlo;
 use crate::quadrature::TexelSum;
 use crate::spectral::{self, ZonalKernel};
 use crate::split::HighPart;
 use crate::suns::Suns;
-use crate::{BakeError, BakeSettings, Engine, source};
+use crate::{BakeError, BakeSettings, ChainSettings, Engine, source};
 use lumisphere_bsdf::{Alpha, DfgTable, Lobe, LobeShape, LobeWeight, PerceptualRoughness};
-use lumisphere_image::{CubeChain, Environment, Rgb, resample};
+use lumisphere_image::{Environment, Rgb, resample};
 use lumisphere_sh::{FourierRows, RowWeights, ShRgb, ShRotation, Spectrum};
 use lumisphere_sphere::{Grid, Projection};
 
 /// A prefiltered chain with the roughness of each level.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpecularChain {
-    /// The levels, level 0 the mirror.
-    pub levels: CubeChain,
+    /// The levels, level 0 the mirror, in the layout of [`ChainSettings::projection`]: each the lobe (or the fitted
+    /// kernel) about the centres of its texels, level 0 the mean over each texel.
+    pub levels: Vec<Environment>,
     /// Perceptual roughness of each level.
     pub roughness: Vec<PerceptualRoughness>,
 }
@@ -26,8 +28,8 @@ pub struct SpecularChain {
 pub struct BakedEnvironment {
     /// Spherical harmonics of radiance (not convolved), in the world frame.
     pub sh: ShRgb,
-    /// The specular chain.
-    pub specular: Option<SpecularChain>,
+    /// The specular chains, in the order of the settings.
+    pub chains: Vec<SpecularChain>,
     /// Irradiance E (no 1/π inside) as a cube.
     pub irradiance: Option<Environment>,
     /// Mean radiance over each texel of a cube.
@@ -49,9 +51,13 @@ pub enum Step {
     Irradiance,
     /// Convolve with the lobe of one level.
     Level {
-        /// Its index.
+        /// Index of its chain.
+        chain: usize,
+        /// How many chains there are.
+        chains: usize,
+        /// Its index in the chain.
         lod: usize,
-        /// How many there are.
+        /// How many levels the chain has.
         of: usize,
     },
     /// Integrate the table of directional albedo.
@@ -78,8 +84,8 @@ pub fn bake(
     progress(Step::Prepare);
     let panorama = source::panorama(environment)?;
     let outputs = settings.outputs;
-    let mirror = outputs.specular.then(|| mirror(&panorama, settings, progress)).transpose()?;
-    let skybox = outputs.skybox.then(|| skybox(&panorama, mirror.as_ref(), settings, progress)).transpose()?;
+    let mirrors = mirrors(&panorama, settings, progress)?;
+    let skybox = outputs.skybox.then(|| skybox(&panorama, settings, progress)).transpose()?;
     let mut source = source::refined(panorama, settings)?;
     progress(Step::Transform);
     let suns = Suns::take_for(settings.engine, &mut source);
@@ -92,73 +98,91 @@ pub fn bake(
     let sh = ShRotation::new(&settings.rotation, settings.sh_bands).apply(&sh);
     let mut baker = Levels { engine, spectrum: &spectrum, suns: &suns };
     let irradiance = outputs.irradiance.then(|| irradiance(&mut baker, settings, progress)).transpose()?;
-    let specular = mirror.map(|mirror| specular(&mut baker, mirror, settings, progress)).transpose()?;
-    let skybox = match (skybox, &specular) {
-        (Some(Skybox::LikeMirror), Some(chain)) => Some(chain.levels.levels()[0].clone()),
-        (Some(Skybox::Own(cube)), _) => Some(cube),
-        _ => None,
-    };
+    let chains = chains(&mut baker, mirrors, settings, progress)?;
+    let skybox = skybox.map(|skybox| skybox.taken_from(&chains));
     let dfg = outputs.dfg.then(|| dfg(settings, progress)).transpose()?;
-    Ok(BakedEnvironment { sh, specular, irradiance, skybox, dfg })
+    Ok(BakedEnvironment { sh, chains, irradiance, skybox, dfg })
 }
 
 pub(crate) fn cube(size: usize) -> Result<Grid, BakeError> {
     Ok(Grid::new(Projection::Cube, size, size).map_err(lumisphere_image::ImageError::from)?)
 }
 
-/// Level 0: the exact area resample.
-fn mirror(panorama: &Environment, settings: &BakeSettings, progress: Progress) -> Result<Environment, BakeError> {
-    progress(Step::Level { lod: 0, of: settings.levels() });
-    Ok(resample(panorama, cube(settings.size)?, &settings.rotation))
-}
-
-enum Skybox {
-    /// Same size as level 0 of the chain: copied from there at the end, when memory is free again.
-    LikeMirror,
+/// The environment's mean radiance over each texel of a grid.
+enum Resampled {
     Own(Environment),
+    /// The same as level 0 of this chain: copied from there at the end, when memory is free again.
+    LikeChain(usize),
 }
 
-fn skybox(
-    panorama: &Environment,
-    mirror: Option<&Environment>,
-    settings: &BakeSettings,
-    progress: Progress,
-) -> Result<Skybox, BakeError> {
-    let size = settings.skybox_size.unwrap_or(settings.size);
-    if mirror.is_some_and(|m| m.grid().width() == size) {
-        return Ok(Skybox::LikeMirror);
+impl Resampled {
+    /// From one of these chains, if it can be had there.
+    fn like_one_of(chains: &[ChainSettings], grid: Grid) -> Option<Self> {
+        chains.iter().position(|chain| chain.grid(0).is_ok_and(|own| own == grid)).map(Self::LikeChain)
+    }
+
+    fn taken_from(self, chains: &[SpecularChain]) -> Environment {
+        match self {
+            Self::Own(environment) => environment,
+            Self::LikeChain(index) => chains[index].levels[0].clone(),
+        }
+    }
+}
+
+/// Level 0 of every chain: the exact area resample, made once for chains that share it.
+fn mirrors(panorama: &Environment, settings: &BakeSettings, progress: Progress) -> Result<Vec<Resampled>, BakeError> {
+    let chains = &settings.chains;
+    let mirror = |(index, chain): (usize, &ChainSettings)| {
+        progress(Step::Level { chain: index, chains: chains.len(), lod: 0, of: chain.levels() });
+        let grid = chain.grid(0)?;
+        let own = || Resampled::Own(resample(panorama, grid, &settings.rotation));
+        Ok(Resampled::like_one_of(&chains[..index], grid).unwrap_or_else(own))
+    };
+    chains.iter().enumerate().map(mirror).collect()
+}
+
+fn skybox(panorama: &Environment, settings: &BakeSettings, progress: Progress) -> Result<Resampled, BakeError> {
+    let grid = cube(settings.skybox_size())?;
+    if let Some(like_chain) = Resampled::like_one_of(&settings.chains, grid) {
+        return Ok(like_chain);
     }
     progress(Step::Skybox);
-    Ok(Skybox::Own(resample(panorama, cube(size)?, &settings.rotation)))
+    Ok(Resampled::Own(resample(panorama, grid, &settings.rotation)))
 }
 
 /// E = π times the weighted mean under the clamped cosine.
 fn irradiance(levels: &mut Levels, settings: &BakeSettings, progress: Progress) -> Result<Environment, BakeError> {
     progress(Step::Irradiance);
     let cosine = Lobe::new(LobeShape::Cosine, LobeWeight::None, Alpha::clamped(1.0));
-    let directions = CubeDirections::new(settings.irradiance_size, &settings.rotation);
+    let grid = cube(settings.irradiance_size)?;
+    let directions = LevelDirections::new(grid, &settings.rotation);
     let pi = std::f32::consts::PI;
-    let texels = levels.bake(&cosine, &directions)?.into_iter().map(|t| t.map(|v| v * pi)).collect();
-    Ok(Environment::new(cube(settings.irradiance_size)?, texels)?)
+    let texels =
+        levels.bake(&LevelKernel::exact(cosine), &directions)?.into_iter().map(|t| t.map(|v| v * pi)).collect();
+    Ok(Environment::new(grid, texels)?)
 }
 
-/// The chain behind its mirror level.
-fn specular(
+/// The chains behind their mirror levels.
+fn chains(
     baker: &mut Levels,
-    mirror: Environment,
+    mirrors: Vec<Resampled>,
     settings: &BakeSettings,
     progress: Progress,
-) -> Result<SpecularChain, BakeError> {
-    let roughness = settings.roughness();
-    let mut levels = vec![mirror];
-    for (lod, &p) in roughness.iter().enumerate().skip(1) {
-        progress(Step::Level { lod, of: roughness.len() });
-        let size = (settings.size >> lod).max(1);
-        let directions = CubeDirections::new(size, &settings.rotation);
-        let texels = baker.bake(&settings.lobe_at(p), &directions)?;
-        levels.push(Environment::new(cube(size)?, texels)?);
+) -> Result<Vec<SpecularChain>, BakeError> {
+    let mut chains = Vec::with_capacity(mirrors.len());
+    for (index, (mirror, chain)) in mirrors.into_iter().zip(&settings.chains).enumerate() {
+        let roughness = chain.roughness();
+        let kernels = LevelKernel::of_chain(chain, settings)?;
+        let mut levels = vec![mirror.taken_from(&chains)];
+        for (lod, kernel) in kernels.iter().enumerate().skip(1) {
+            progress(Step::Level { chain: index, chains: settings.chains.len(), lod, of: roughness.len() });
+            let grid = chain.grid(lod)?;
+            let directions = LevelDirections::new(grid, &settings.rotation);
+            levels.push(Environment::new(grid, baker.bake(kernel, &directions)?)?);
+        }
+        chains.push(SpecularChain { levels, roughness });
     }
-    Ok(SpecularChain { levels: CubeChain::new(levels)?, roughness })
+    Ok(chains)
 }
 
 /// The chosen engine beside the environment's spectrum.
@@ -182,10 +206,7 @@ enum LevelBaker {
 impl LevelBaker {
     fn new(source: Environment, settings: &BakeSettings) -> Result<Self, BakeError> {
         Ok(match settings.engine {
-            Engine::Spectral => {
-                let splits = settings.outputs.specular && splits_a_level(settings)?;
-                Self::Spectral { source: splits.then_some(source), high: None }
-            }
+            Engine::Spectral => Self::Spectral { source: splits_a_level(settings)?.then_some(source), high: None },
             Engine::MonteCarlo => Self::MonteCarlo(MonteCarlo::new(&source, settings)?),
             Engine::Quadrature => Self::Quadrature(source),
         })
@@ -193,7 +214,7 @@ impl LevelBaker {
 }
 
 fn splits_a_level(settings: &BakeSettings) -> Result<bool, BakeError> {
-    for p in settings.roughness().into_iter().skip(1) {
+    for p in settings.chains.iter().flat_map(|chain| chain.roughness().into_iter().skip(1)) {
         if ZonalKernel::of(&settings.lobe_at(p), spectral::band(settings.lobe, settings.weight))?.outruns_band() {
             return Ok(true);
         }
@@ -202,25 +223,25 @@ fn splits_a_level(settings: &BakeSettings) -> Result<bool, BakeError> {
 }
 
 impl Levels<'_> {
-    fn bake(&mut self, lobe: &Lobe, directions: &CubeDirections) -> Result<Vec<Rgb>, BakeError> {
+    fn bake(&mut self, kernel: &LevelKernel, directions: &LevelDirections) -> Result<Vec<Rgb>, BakeError> {
         match &mut self.engine {
             LevelBaker::Spectral { source, high } => {
-                let zonal = ZonalKernel::of(lobe, self.spectrum.band())?;
+                let zonal = ZonalKernel::of(&kernel.lobe, self.spectrum.band())?;
                 let mut sums = if zonal.outruns_band() {
                     // The source gives its memory to what is left of it without its low bands.
                     if let Some(source) = source.take() {
                         *high = Some(HighPart::new(source, self.spectrum));
                     }
                     let Some(high) = high else { unreachable!("the source was kept for the levels that are split") };
-                    high.sums(self.spectrum, lobe, &zonal, directions)
+                    high.sums(self.spectrum, kernel, &zonal, directions)
                 } else {
-                    spectral::sums(self.spectrum, &zonal, directions)
+                    spectral::sums(self.spectrum, &zonal, &kernel.correction, directions)
                 };
-                self.suns.add_lobe(lobe, zonal.integral, directions, &mut sums);
+                self.suns.add_lobe(kernel, zonal.integral, directions, &mut sums);
                 Ok(spectral::means(sums))
             }
-            LevelBaker::MonteCarlo(engine) => Ok(engine.level(lobe, directions)),
-            LevelBaker::Quadrature(source) => Ok(TexelSum::new(source).level(lobe, directions)),
+            LevelBaker::MonteCarlo(engine) => Ok(engine.level(&kernel.lobe, directions)),
+            LevelBaker::Quadrature(source) => Ok(TexelSum::new(source).level(kernel, directions)),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Importance sampling with prefiltered lookups, the way renderers prefilter: to reproduce what other tools do.
 
 use crate::bake::cube;
-use crate::cube_directions::CubeDirections;
+use crate::level_directions::LevelDirections;
 use crate::{BakeError, BakeSettings, MonteCarloSettings, SampleLookup};
 use lumisphere_bsdf::{Lobe, LobeShape, LobeWeight};
 use lumisphere_image::{CubeChain, Environment, Rgb, resample, sample_chain};
@@ -34,7 +34,7 @@ impl MonteCarlo {
     }
 
     /// Every texel of a level; directions where the lobe has no light stay black.
-    pub(crate) fn level(&self, lobe: &Lobe, directions: &CubeDirections) -> Vec<Rgb> {
+    pub(crate) fn level(&self, lobe: &Lobe, directions: &LevelDirections) -> Vec<Rgb> {
         let samples = self.samples(lobe);
         let total: f64 = samples.iter().map(|s| s.weight).sum();
         let mean = |&normal: &Vec3| {

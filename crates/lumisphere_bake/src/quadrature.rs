@@ -2,8 +2,8 @@
 //!
 //! `level(r) = Σ_t K(r, t) Ω_t L_t / Σ_t K(r, t) Ω_t`, t over texel centres with their exact solid angles.
 
-use crate::cube_directions::CubeDirections;
-use lumisphere_bsdf::Lobe;
+use crate::level_directions::LevelDirections;
+use crate::level_kernel::LevelKernel;
 use lumisphere_image::{Environment, Rgb};
 use lumisphere_sphere::{Vec3, latlong};
 use rayon::prelude::*;
@@ -32,15 +32,15 @@ impl<'a> TexelSum<'a> {
     }
 
     /// The weighted mean about one direction of the source's frame.
-    pub(crate) fn mean(&self, lobe: &Lobe, direction: Vec3) -> [f64; 3] {
-        let farthest = 0.5 * (1.0 - lobe.support_cos());
+    pub(crate) fn mean(&self, kernel: &LevelKernel, direction: Vec3) -> [f64; 3] {
+        let farthest = kernel.farthest_sin2_half();
         let mut weights = vec![0.0; self.columns.len()];
         let mut sum = [0.0; 3];
         let mut total = 0.0;
         for (y, &(sin, cos, omega)) in self.rows.iter().enumerate() {
             self.squared_half_sines(direction, sin, cos, &mut weights);
             for s in &mut weights {
-                *s = if *s < farthest { omega * lobe.kernel_at_sin2_half(*s) } else { 0.0 };
+                *s = if *s < farthest { omega * kernel.at_sin2_half(*s) } else { 0.0 };
             }
             for (texel, w) in self.source.row(0, y).iter().zip(&weights) {
                 total += w;
@@ -62,7 +62,7 @@ impl<'a> TexelSum<'a> {
     }
 
     /// Every texel of a level.
-    pub(crate) fn level(&self, lobe: &Lobe, directions: &CubeDirections) -> Vec<Rgb> {
-        directions.directions.par_iter().map(|&d| self.mean(lobe, d).map(|v| v as f32)).collect()
+    pub(crate) fn level(&self, kernel: &LevelKernel, directions: &LevelDirections) -> Vec<Rgb> {
+        directions.directions.par_iter().map(|&d| self.mean(kernel, d).map(|v| v as f32)).collect()
     }
 }

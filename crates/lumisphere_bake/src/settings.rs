@@ -1,7 +1,6 @@
 //! What to bake, and how.
 
-use crate::BakeError;
-use crate::curve::RoughnessCurve;
+use crate::{BakeError, ChainSettings, LevelKernels};
 use lumisphere_bsdf::{Lobe, LobeShape, LobeWeight, Masking, PerceptualRoughness};
 use lumisphere_sphere::Rotation;
 
@@ -44,11 +43,9 @@ impl Default for MonteCarloSettings {
     }
 }
 
-/// What to make.
+/// What to make beside the specular chains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outputs {
-    /// The prefiltered specular chain.
-    pub specular: bool,
     /// Irradiance as a cube.
     pub irradiance: bool,
     /// The environment as a cube.
@@ -59,17 +56,16 @@ pub struct Outputs {
 
 impl Outputs {
     /// Everything.
-    pub const ALL: Self = Self { specular: true, irradiance: true, skybox: true, dfg: true };
+    pub const ALL: Self = Self { irradiance: true, skybox: true, dfg: true };
 }
 
 /// All choices of a bake. Spherical harmonics are always made: they cost nothing beside the rest.
 #[derive(Debug, Clone)]
 pub struct BakeSettings {
-    /// Face size of the specular chain's level 0 in texels.
-    pub size: usize,
-    /// Levels of the chain, the mirror included. `None`: down to faces of 8 texels, or what the curve asks for.
-    pub level_count: Option<usize>,
-    /// Face size of the skybox; `None`: as the chain.
+    /// The specular chains, all from one transform; none of them: no specular lighting. What small pictures are cut
+    /// into follows the sharpest lobe of them all.
+    pub chains: Vec<ChainSettings>,
+    /// Face size of the skybox; `None`: as the first chain, 256 without one.
     pub skybox_size: Option<usize>,
     /// Face size of the irradiance cube.
     pub irradiance_size: usize,
@@ -85,8 +81,6 @@ pub struct BakeSettings {
     pub lobe: LobeShape,
     /// Its weight.
     pub weight: LobeWeight,
-    /// The roughness of each level.
-    pub curve: RoughnessCurve,
     /// Turns the environment before everything else; exact, nothing is resampled for it.
     pub rotation: Rotation,
     /// For [`Engine::MonteCarlo`].
@@ -98,14 +92,14 @@ pub struct BakeSettings {
 impl BakeSettings {
     /// A quick look: 64² faces.
     pub fn preview() -> Self {
-        Self { size: 64, irradiance_size: 16, dfg_size: 32, ..Self::standard() }
+        let chains = vec![ChainSettings { size: 64, ..ChainSettings::default() }];
+        Self { chains, irradiance_size: 16, dfg_size: 32, ..Self::standard() }
     }
 
-    /// 256² faces, linear curve, GGX with n·l weight.
+    /// One cube chain of 256² faces, linear curve, GGX with n·l weight.
     pub fn standard() -> Self {
         Self {
-            size: 256,
-            level_count: None,
+            chains: vec![ChainSettings::default()],
             skybox_size: None,
             irradiance_size: 32,
             sh_bands: 3,
@@ -114,7 +108,6 @@ impl BakeSettings {
             engine: Engine::Spectral,
             lobe: LobeShape::Ggx,
             weight: LobeWeight::NDotL,
-            curve: RoughnessCurve::Linear,
             rotation: Rotation::IDENTITY,
             monte_carlo: MonteCarloSettings::default(),
             outputs: Outputs::ALL,
@@ -126,17 +119,10 @@ impl BakeSettings {
         Self { engine: Engine::Quadrature, ..Self::standard() }
     }
 
-    /// The number of levels that will be made.
-    pub fn levels(&self) -> usize {
-        let whole = self.size.max(1).ilog2() as usize + 1;
-        let default = self.curve.level_count().unwrap_or(whole.saturating_sub(SMALLEST_FACE_LOG2).max(2));
-        self.level_count.unwrap_or(default).min(whole.max(1))
-    }
-
-    /// Perceptual roughness of every level.
-    pub fn roughness(&self) -> Vec<PerceptualRoughness> {
-        let n = self.levels();
-        (0..n).map(|lod| self.curve.perceptual_roughness(lod, n)).collect()
+    /// Face size of the skybox that will be made.
+    pub fn skybox_size(&self) -> usize {
+        let like_chain = self.chains.first().map_or(ChainSettings::default().size, |chain| chain.size);
+        self.skybox_size.unwrap_or(like_chain)
     }
 
     /// The lobe of a level.
@@ -149,8 +135,8 @@ impl BakeSettings {
     /// # Errors
     /// [`BakeError::Setting`].
     pub fn validate(&self) -> Result<(), BakeError> {
+        self.chains.iter().try_for_each(ChainSettings::validate)?;
         let sizes = [
-            ("size", self.size),
             ("irradiance size", self.irradiance_size),
             ("skybox size", self.skybox_size.unwrap_or(1)),
             ("DFG size", self.dfg_size),
@@ -160,19 +146,15 @@ impl BakeSettings {
                 return Err(setting(name, size, "from 1 to 8192 texels"));
             }
         }
-        if !self.size.is_power_of_two() {
-            return Err(setting("size", self.size, "a power of two"));
-        }
-        let whole = self.size.ilog2() as usize + 1;
-        if self.level_count.is_some_and(|n| n == 0 || n > whole) {
-            let found = self.level_count.unwrap_or(0);
-            return Err(setting("level count", found, "from 1 to the number of times the size can be halved, plus 1"));
-        }
         if !(1..=MAX_SH_BANDS).contains(&self.sh_bands) {
             return Err(setting("SH band count", self.sh_bands, "from 1 to 32"));
         }
         if self.lobe == LobeShape::Cosine {
             return Err(setting("lobe", "cosine", "one with a roughness; irradiance is baked beside the chain"));
+        }
+        let fitted = self.chains.iter().any(|chain| chain.kernels == LevelKernels::Fitted);
+        if fitted && self.engine == Engine::MonteCarlo {
+            return Err(setting("engine of fitted levels", "Monte Carlo", "spectral or quadrature"));
         }
         if self.monte_carlo.samples == 0 {
             return Err(setting("sample count", 0, "at least 1"));
@@ -184,13 +166,11 @@ impl BakeSettings {
     }
 }
 
-/// Faces of 8 texels end a chain: below that even a p = 1 lobe is visibly faceted under bilinear filtering.
-const SMALLEST_FACE_LOG2: usize = 3;
 /// Larger faces than any environment can fill.
-const MAX_SIZE: usize = 8192;
+pub(crate) const MAX_SIZE: usize = 8192;
 /// Rotations hold about band³ numbers.
 const MAX_SH_BANDS: usize = 32;
 
-fn setting(name: &'static str, found: impl ToString, expected: &'static str) -> BakeError {
+pub(crate) fn setting(name: &'static str, found: impl ToString, expected: &'static str) -> BakeError {
     BakeError::Setting { name, found: found.to_string(), expected }
 }

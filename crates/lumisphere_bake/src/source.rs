@@ -1,6 +1,6 @@
 //! The environment as every engine sees it: a lat-long picture fine enough for the sharpest lobe.
 
-use crate::{BakeError, BakeSettings};
+use crate::{BakeError, BakeSettings, ChainSettings};
 use lumisphere_image::{Environment, Rgb, resample};
 use lumisphere_sphere::{Grid, Projection, Rotation};
 use rayon::prelude::*;
@@ -36,14 +36,14 @@ pub(crate) fn panorama(environment: Environment) -> Result<Environment, BakeErro
     Ok(resample(&environment, grid, &Rotation::IDENTITY))
 }
 
-/// Cuts every texel into `k`² equal ones, the smallest k that resolves the sharpest lobe of the chain (k = 1 for
+/// Cuts every texel into `k`² equal ones, the smallest k that resolves the sharpest lobe of the chains (k = 1 for
 /// pictures of more than a few hundred rows, unless a level is very sharp).
 ///
 /// # Errors
 /// None but those of impossible sizes.
 pub(crate) fn refined(panorama: Environment, settings: &BakeSettings) -> Result<Environment, BakeError> {
-    let sharpest =
-        settings.roughness().into_iter().map(|p| p.to_alpha().value()).filter(|a| *a > 0.0).fold(1.0, f64::min);
+    let roughness = settings.chains.iter().flat_map(ChainSettings::roughness);
+    let sharpest = roughness.map(|p| p.to_alpha().value()).filter(|a| *a > 0.0).fold(1.0, f64::min);
     let (width, height) = (panorama.grid().width(), panorama.grid().height());
     let wanted = (PI / (TEXELS_PER_ALPHA * sharpest * height as f64)).ceil() as usize;
     let k = wanted.max(MIN_ROWS.div_ceil(height)).min(MAX_REFINED_ROWS / height).max(1);

@@ -1,8 +1,8 @@
 //! A level by convolution in spherical harmonics: `(L * K)_lm = k_l L_lm`, then back to directions.
 
 use crate::BakeError;
-use crate::cube_directions::CubeDirections;
 use crate::interpolate::{self, LAGRANGE_ERROR, TAPS};
+use crate::level_directions::LevelDirections;
 use lumisphere_bsdf::{Lobe, LobeShape, LobeWeight};
 use lumisphere_image::Rgb;
 use lumisphere_sh::Spectrum;
@@ -89,8 +89,11 @@ pub(crate) fn convolved_at(
     spectrum: &Spectrum,
     kernel: &[f64],
     tolerance: f64,
-    directions: &CubeDirections,
+    directions: &LevelDirections,
 ) -> Vec<[f64; 4]> {
+    if let Some((width, height)) = directions.lat_long {
+        return convolved_rows(spectrum, kernel, width, height);
+    }
     let directions_list = &directions.directions;
     let rows = grid_rows(kernel, tolerance);
     if directions.latitude_count < rows / 2 {
@@ -108,16 +111,35 @@ pub(crate) fn convolved_at(
     directions_list.par_iter().map(read).collect()
 }
 
+/// [`convolved_at`] for the texel centres of a lat-long picture: an inverse transform onto it, nothing interpolated.
+fn convolved_rows(spectrum: &Spectrum, kernel: &[f64], width: usize, height: usize) -> Vec<[f64; 4]> {
+    let picture: Vec<[f64; 3]> = spectrum.synthesise(kernel, width, height);
+    let units = unit_rows(spectrum, kernel, height);
+    picture.par_iter().enumerate().map(|(i, &[r, g, b])| [r, g, b, units[i / width]]).collect()
+}
+
 /// What a picture of ones becomes on each row of a lat-long grid.
 pub(crate) fn unit_rows(spectrum: &Spectrum, kernel: &[f64], rows: usize) -> Vec<f64> {
     let row = |y: usize| spectrum.unit_response(kernel, (PI * (y as f64 + 0.5) / rows as f64).cos());
     (0..rows).into_par_iter().map(row).collect()
 }
 
-/// The sums over texels of a lobe that the band holds, exact up to the band.
-pub(crate) fn sums(spectrum: &Spectrum, zonal: &ZonalKernel, directions: &CubeDirections) -> Vec<[f64; 4]> {
-    let kernel = &zonal.coefficients[..zonal.significant_band().min(spectrum.band())];
-    convolved_at(spectrum, kernel, TOLERANCE, directions)
+/// The sums over texels of a lobe that the band holds, with `correction` added to its coefficients; exact up to the band.
+pub(crate) fn sums(
+    spectrum: &Spectrum,
+    zonal: &ZonalKernel,
+    correction: &[f64],
+    directions: &LevelDirections,
+) -> Vec<[f64; 4]> {
+    let band = zonal.significant_band().max(correction.len()).min(spectrum.band());
+    let kernel = corrected(&zonal.coefficients[..band], correction);
+    convolved_at(spectrum, &kernel, TOLERANCE, directions)
+}
+
+/// Coefficients with a correction of as many bands or fewer.
+pub(crate) fn corrected(coefficients: &[f64], correction: &[f64]) -> Vec<f64> {
+    let correction = correction.iter().copied().chain(std::iter::repeat(0.0));
+    coefficients.iter().zip(correction).map(|(k, d)| k + d).collect()
 }
 
 /// Sums over texels, and last of ones, to weighted means.

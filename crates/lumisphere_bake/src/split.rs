@@ -4,7 +4,8 @@
 //! lobe does far from its peak is smooth: its own bands lie below the fade, so it meets L_low only. The sum runs to the
 //! radius where that holds and fades out itself.
 
-use crate::cube_directions::CubeDirections;
+use crate::level_directions::LevelDirections;
+use crate::level_kernel::LevelKernel;
 use crate::spectral::{self, ZonalKernel};
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
@@ -70,13 +71,15 @@ impl HighPart {
     pub(crate) fn sums(
         &self,
         spectrum: &Spectrum,
-        lobe: &Lobe,
+        kernel: &LevelKernel,
         zonal: &ZonalKernel,
-        directions: &CubeDirections,
+        directions: &LevelDirections,
     ) -> Vec<[f64; 4]> {
-        let kernel: Vec<f64> = self.fade.iter().zip(&zonal.coefficients).map(|(f, k)| f * k).collect();
-        let low = spectral::convolved_at(spectrum, &kernel, TOLERANCE, directions);
-        let radial = Radial::of(lobe, zonal.integral, self.radius);
+        let low: Vec<f64> = self.fade.iter().zip(&zonal.coefficients).map(|(f, k)| f * k).collect();
+        // A fit's correction lies within the band: it meets all of the spectrum, the high part not at all.
+        let low = spectral::corrected(&low, &kernel.correction);
+        let low = spectral::convolved_at(spectrum, &low, TOLERANCE, directions);
+        let radial = Radial::of(&kernel.lobe, zonal.integral, self.radius);
         let texel = |(low, &d): (&[f64; 4], &Vec3)| {
             let high = self.near_sum(&radial, d);
             [0, 1, 2, 3].map(|c| low[c] + high[c])

@@ -4,9 +4,9 @@
 //! for the dark places around it. So the spectral engine takes such texels down to the mean of the picture and adds what
 //! they had beyond it by the lobe's own formula.
 
-use crate::cube_directions::CubeDirections;
+use crate::level_directions::LevelDirections;
+use crate::level_kernel::LevelKernel;
 use crate::{BakeError, Engine};
-use lumisphere_bsdf::Lobe;
 use lumisphere_image::Environment;
 use lumisphere_sh::{Basis, ShRgb};
 use lumisphere_sphere::Vec3;
@@ -60,14 +60,20 @@ impl Suns {
     }
 
     /// Adds `K Ω L`, K normalised by its integral, to the sums at each direction.
-    pub(crate) fn add_lobe(&self, lobe: &Lobe, integral: f64, directions: &CubeDirections, sums: &mut [[f64; 4]]) {
+    pub(crate) fn add_lobe(
+        &self,
+        kernel: &LevelKernel,
+        integral: f64,
+        directions: &LevelDirections,
+        sums: &mut [[f64; 4]],
+    ) {
         if self.suns.is_empty() {
             return;
         }
         sums.par_iter_mut().zip(&directions.directions).for_each(|(sum, &r)| {
             for sun in &self.suns {
                 let apart = sub(sun.direction, r);
-                let k = lobe.kernel_at_sin2_half(0.25 * dot(apart, apart)) / integral;
+                let k = kernel.at_sin2_half(0.25 * dot(apart, apart)) / integral;
                 for c in 0..3 {
                     sum[c] += k * sun.light[c];
                 }

@@ -1,14 +1,16 @@
 //! How far a bake is from the sum over every texel.
 
 use crate::bake::{BakedEnvironment, SpecularChain};
+use crate::level_kernel::LevelKernel;
 use crate::quadrature::TexelSum;
-use crate::{BakeError, BakeSettings, source};
+use crate::settings::setting;
+use crate::{BakeError, BakeSettings, ChainSettings, source};
 use lumisphere_bsdf::{Alpha, DfgTable, Lobe, LobeShape, LobeWeight, Masking, PerceptualRoughness, dfg};
 use lumisphere_image::{Environment, Rgb, resample};
 use lumisphere_sh::projection::project;
 use lumisphere_sh::{ShRgb, ShRotation};
 use lumisphere_sphere::sequence::r2;
-use lumisphere_sphere::{Vec3, cube};
+use lumisphere_sphere::{Grid, Projection, TexelPosition, Vec3, cube};
 use rayon::prelude::*;
 
 /// How thoroughly to measure.
@@ -20,12 +22,12 @@ pub struct VerifySettings<'a> {
     pub quantise: &'a (dyn Fn(Rgb) -> Rgb + Sync),
 }
 
-/// One level of the chain, or the irradiance cube.
+/// One level of a chain, or the irradiance cube.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LevelReport {
     /// Index in the chain.
     pub lod: usize,
-    /// Face size in texels.
+    /// Width in texels: of a face, for a cube.
     pub size: usize,
     /// Perceptual roughness.
     pub perceptual_roughness: PerceptualRoughness,
@@ -41,7 +43,8 @@ pub struct LevelReport {
     pub format_energy: f64,
     /// How far the two may differ.
     pub energy_limit: f64,
-    /// Jump across cube edges over the jump beside them, against the same ratio of the exact level. `None` below 4 texels.
+    /// Jump across cube edges over the jump beside them, against the same ratio of the exact level. `None` below 4 texels,
+    /// and for other layouts than cubes.
     pub seam: Option<f64>,
     /// What `relative_rms` may be (beside the format's own).
     pub limit: f64,
@@ -70,8 +73,8 @@ impl LevelReport {
 /// The measured errors of a bake.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VerifyReport {
-    /// The specular chain.
-    pub levels: Vec<LevelReport>,
+    /// The levels of each specular chain, in the order of the settings.
+    pub chains: Vec<Vec<LevelReport>>,
     /// The irradiance cube.
     pub irradiance: Option<LevelReport>,
     /// Largest error of a spherical-harmonic coefficient over L00.
@@ -89,10 +92,12 @@ impl VerifyReport {
 
 /// Measures a bake against the sum over every texel of the environment that it was made from.
 ///
-/// `environment` and `settings` are those given to [`crate::bake()`].
+/// `environment` and `settings` are those given to [`crate::bake()`]. What `baked` leaves out, all chains among it, is not
+/// measured. Fitted levels are held against the sum with their fitted kernels, whose values come from their coefficients
+/// term by term; how near such levels bring a renderer to the lobe is [`crate::InterpolationError`]'s to say.
 ///
 /// # Errors
-/// As [`crate::bake()`], and [`BakeError::Setting`] for a chain with another number of levels than the settings.
+/// As [`crate::bake()`], and [`BakeError::Setting`] for another number of chains, or of levels of a chain, than in the settings.
 pub fn verify(
     baked: &BakedEnvironment,
     environment: Environment,
@@ -101,11 +106,13 @@ pub fn verify(
     progress: crate::Progress,
 ) -> Result<VerifyReport, BakeError> {
     settings.validate()?;
-    same_level_count(baked, settings)?;
+    same_counts(baked, settings)?;
     progress(crate::Step::Prepare);
     let panorama = source::panorama(environment)?;
+    let pairs = || baked.chains.iter().zip(&settings.chains);
     let mirror =
-        baked.specular.as_ref().map(|chain| mirror_report(chain, &panorama, settings, verify_settings)).transpose()?;
+        |(chain, _): (&SpecularChain, &ChainSettings)| mirror_report(chain, &panorama, settings, verify_settings);
+    let mut chains: Vec<Vec<LevelReport>> = pairs().map(|pair| vec![mirror(pair)]).collect();
     let source = source::refined(panorama, settings)?;
     let sh_error = sh_error(&baked.sh, &source, settings)?;
     let judge = Judge { truth: TexelSum::new(&source), settings, verify: verify_settings };
@@ -113,28 +120,34 @@ pub fn verify(
         progress(crate::Step::Irradiance);
         judge.irradiance(cube)
     });
-    let mut levels: Vec<LevelReport> = mirror.into_iter().collect();
-    if let Some(chain) = &baked.specular {
-        for lod in 1..chain.roughness.len() {
-            progress(crate::Step::Level { lod, of: chain.roughness.len() });
-            levels.push(judge.level(chain, lod));
+    for (index, (chain, asked)) in pairs().enumerate() {
+        // What was asked for, not what the chain says of itself.
+        let kernels = LevelKernel::of_chain(asked, settings)?;
+        for (lod, kernel) in kernels.iter().enumerate().skip(1) {
+            progress(crate::Step::Level { chain: index, chains: chains.len(), lod, of: asked.levels() });
+            chains[index].push(judge.level(&chain.levels[lod], lod, asked.roughness()[lod], kernel));
         }
     }
     let dfg_error = baked.dfg.as_ref().map(|table| {
         progress(crate::Step::Dfg);
         dfg_error(table, settings.masking)
     });
-    Ok(VerifyReport { levels, irradiance, sh_error, dfg_error })
+    Ok(VerifyReport { chains, irradiance, sh_error, dfg_error })
 }
 
-/// A chain of another length was not made with these settings: its levels have no roughness to be held against.
-fn same_level_count(baked: &BakedEnvironment, settings: &BakeSettings) -> Result<(), BakeError> {
-    let found = baked.specular.as_ref().map_or(settings.levels(), |chain| chain.levels.levels().len());
-    if found == settings.levels() {
-        return Ok(());
-    }
+/// Chains of another number or length were not made with these settings: their levels have no roughness to be held
+/// against.
+fn same_counts(baked: &BakedEnvironment, settings: &BakeSettings) -> Result<(), BakeError> {
     let expected = "that of the settings";
-    Err(BakeError::Setting { name: "level count of the chain", found: found.to_string(), expected })
+    if !baked.chains.is_empty() && baked.chains.len() != settings.chains.len() {
+        return Err(setting("chain count", baked.chains.len(), expected));
+    }
+    for (chain, asked) in baked.chains.iter().zip(&settings.chains) {
+        if chain.levels.len() != asked.levels() {
+            return Err(setting("level count of the chain", chain.levels.len(), expected));
+        }
+    }
+    Ok(())
 }
 
 /// What a level of this α may miss by (relative RMS).
@@ -155,17 +168,14 @@ struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    fn level(&self, chain: &SpecularChain, lod: usize) -> LevelReport {
-        // What was asked for, not what the chain says of itself.
-        let p = self.settings.roughness()[lod];
-        let lobe = self.settings.lobe_at(p);
-        let limit = limit(p.to_alpha().value());
-        self.report(&chain.levels.levels()[lod], lod, p, limit, |d| self.truth.mean(&lobe, d))
+    fn level(&self, level: &Environment, lod: usize, p: PerceptualRoughness, kernel: &LevelKernel) -> LevelReport {
+        self.report(level, lod, p, limit(p.to_alpha().value()), |d| self.truth.mean(kernel, d))
     }
 
     fn irradiance(&self, cube: &Environment) -> LevelReport {
         let lobe = Lobe::new(LobeShape::Cosine, LobeWeight::None, Alpha::clamped(1.0));
-        let exact = |d| self.truth.mean(&lobe, d).map(|v| v * std::f64::consts::PI);
+        let kernel = LevelKernel::exact(lobe);
+        let exact = |d| self.truth.mean(&kernel, d).map(|v| v * std::f64::consts::PI);
         self.report(cube, 0, PerceptualRoughness::clamped(1.0), 1e-4, exact)
     }
 
@@ -177,10 +187,10 @@ impl Judge<'_> {
         limit: f64,
         exact: impl Fn([f64; 3]) -> [f64; 3] + Sync,
     ) -> LevelReport {
-        let size = level.grid().width();
+        let grid = level.grid();
         let back = self.settings.rotation.inverse();
         let choice = TexelChoice::of(level, self.verify.texels);
-        let truth: Vec<[f64; 3]> = choice.texels.par_iter().map(|at| exact(back.apply(at.direction(size)))).collect();
+        let truth: Vec<[f64; 3]> = choice.texels.par_iter().map(|at| exact(back.apply(at.direction(grid)))).collect();
         let compare = |range: std::ops::Range<usize>| {
             Errors::of(level, &choice.texels[range.clone()], &truth[range], self.verify.quantise)
         };
@@ -190,7 +200,7 @@ impl Judge<'_> {
         let energy = if spread.energy_error() > bright.energy_error() { &spread } else { &bright };
         LevelReport {
             lod,
-            size,
+            size: grid.width(),
             perceptual_roughness,
             relative_rms: spread.relative_rms.max(bright.relative_rms).max(edges.relative_rms),
             format_rms: spread.format_rms.max(bright.format_rms).max(edges.format_rms),
@@ -214,15 +224,15 @@ fn mirror_report(
     panorama: &Environment,
     settings: &BakeSettings,
     verify: &VerifySettings,
-) -> Result<LevelReport, BakeError> {
-    let level = &chain.levels.levels()[0];
+) -> LevelReport {
+    let level = &chain.levels[0];
     let exact = resample(panorama, level.grid(), &settings.rotation);
-    let texels: Vec<TexelAt> = TexelAt::all(level.grid().width()).collect();
+    let texels: Vec<TexelAt> = TexelAt::all(level.grid()).collect();
     let truth: Vec<[f64; 3]> = exact.texels().iter().map(|t| t.map(f64::from)).collect();
     let errors = Errors::of(level, &texels, &truth, verify.quantise);
     let (found, expected) = (level.mean(), panorama.mean());
     let energy = (0..3).filter(|&c| expected[c] > 0.0).map(|c| found[c] / expected[c]).fold(1.0, farther_from_1);
-    Ok(LevelReport {
+    LevelReport {
         lod: 0,
         size: level.grid().width(),
         perceptual_roughness: chain.roughness[0],
@@ -235,7 +245,7 @@ fn mirror_report(
             + (LevelReport::TEXEL_ENERGY_LIMIT - LevelReport::ENERGY_LIMIT) * brightest_share(panorama),
         seam: None,
         limit: limit(0.0),
-    })
+    }
 }
 
 /// The brightest texel's share of all light.
@@ -275,7 +285,7 @@ const BRIGHTEST: usize = 16;
 /// Places along each cube edge where the seam is measured.
 const SEAM_PLACES: usize = 4;
 
-/// A texel of a cube.
+/// A texel of a level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TexelAt {
     face: usize,
@@ -284,19 +294,23 @@ struct TexelAt {
 }
 
 impl TexelAt {
-    fn all(size: usize) -> impl Iterator<Item = Self> {
-        (0..6 * size * size).map(move |i| Self { face: i / (size * size), x: i % size, y: i / size % size })
+    fn all(grid: Grid) -> impl Iterator<Item = Self> {
+        (0..grid.texel_count()).map(move |i| Self::of_index(grid, i))
     }
 
-    fn direction(self, size: usize) -> Vec3 {
-        let centre = |i: usize| (i as f64 + 0.5) / size as f64;
-        cube::direction(self.face, centre(self.x), centre(self.y))
+    fn of_index(grid: Grid, i: usize) -> Self {
+        let (width, height) = (grid.width(), grid.height());
+        Self { face: i / (width * height), x: i % width, y: i / width % height }
     }
 
-    fn towards(size: usize, direction: Vec3) -> Self {
-        let (face, u, v) = cube::uv(direction);
-        let index = |t: f64| ((t * size as f64) as usize).min(size - 1);
-        Self { face, x: index(u), y: index(v) }
+    /// Every texel of the layouts of levels has a centre.
+    fn direction(self, grid: Grid) -> Vec3 {
+        grid.texel_direction(self.face, self.x, self.y).unwrap_or([0.0, 1.0, 0.0])
+    }
+
+    fn towards(grid: Grid, direction: Vec3) -> Self {
+        let TexelPosition { face, x, y } = grid.position(direction);
+        Self { face, x: (x as usize).min(grid.width() - 1), y: (y as usize).min(grid.height() - 1) }
     }
 }
 
@@ -310,14 +324,14 @@ struct TexelChoice {
 
 impl TexelChoice {
     fn of(level: &Environment, wanted: usize) -> Self {
-        let size = level.grid().width();
-        let mut texels: Vec<TexelAt> = if level.texels().len() <= wanted {
-            TexelAt::all(size).collect()
+        let grid = level.grid();
+        let mut texels: Vec<TexelAt> = if grid.texel_count() <= wanted {
+            TexelAt::all(grid).collect()
         } else {
-            let index = |t: f64| ((t * size as f64) as usize).min(size - 1);
+            let index = |t: f64, size: usize| ((t * size as f64) as usize).min(size - 1);
             let at = |i: usize| {
                 let [u, v] = r2(i as u64);
-                TexelAt { face: i % 6, x: index(u), y: index(v) }
+                TexelAt { face: i % grid.face_count(), x: index(u, grid.width()), y: index(v, grid.height()) }
             };
             (0..wanted).map(at).collect()
         };
@@ -326,10 +340,10 @@ impl TexelChoice {
             level.texels().iter().enumerate().map(|(i, t)| (t[0] + t[1] + t[2], i)).collect();
         order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         let brightest = order.iter().take(BRIGHTEST).map(|&(_, i)| i);
-        texels.extend(brightest.filter_map(|i| TexelAt::all(size).nth(i)));
+        texels.extend(brightest.map(|i| TexelAt::of_index(grid, i)));
         let bright_count = texels.len();
-        if size >= 4 {
-            texels.extend((0..6).flat_map(|face| edge_lines(size, face)).flatten());
+        if grid.projection() == Projection::Cube && grid.width() >= 4 {
+            texels.extend((0..6).flat_map(|face| edge_lines(grid, face)).flatten());
         }
         Self { texels, spread_count, bright_count }
     }
@@ -352,14 +366,14 @@ impl TexelChoice {
 }
 
 /// Lines of four texels across the right and the lower edge of a face: two on this side, two on the other.
-fn edge_lines(size: usize, face: usize) -> impl Iterator<Item = [TexelAt; 4]> {
-    let step = 1.0 / size as f64;
+fn edge_lines(grid: Grid, face: usize) -> impl Iterator<Item = [TexelAt; 4]> {
+    let step = 1.0 / grid.width() as f64;
     (0..2 * SEAM_PLACES).map(move |i| {
         let along = ((i / 2) as f64 + 0.5) / SEAM_PLACES as f64;
         [-1.5, -0.5, 0.5, 1.5].map(|k| {
             let across = 1.0 + k * step;
             let (u, v) = if i % 2 == 0 { (across, along) } else { (along, across) };
-            TexelAt::towards(size, cube::direction(face, u, v))
+            TexelAt::towards(grid, cube::direction(face, u, v))
         })
     })
 }
@@ -397,14 +411,14 @@ impl Errors {
     }
 
     fn of(level: &Environment, texels: &[TexelAt], truth: &[[f64; 3]], quantise: &(dyn Fn(Rgb) -> Rgb + Sync)) -> Self {
-        let size = level.grid().width();
+        let grid = level.grid();
         let (mut square, mut error, mut format) = (0.0, 0.0, 0.0);
         let (mut found_sum, mut stored_sum, mut exact_sum) = (0.0, 0.0, 0.0);
         let mut worst = 0.0_f64;
         for (at, exact) in texels.iter().zip(truth) {
             let found = level.texel(at.face, at.x, at.y).map(f64::from);
             let stored = quantise(exact.map(|v| v as f32)).map(f64::from);
-            let omega = cube::texel_solid_angle(size, at.x, at.y);
+            let omega = grid.texel_solid_angle(at.face, at.x, at.y);
             for c in 0..3 {
                 square += omega * exact[c] * exact[c];
                 error += omega * (found[c] - exact[c]).powi(2);

@@ -2,10 +2,11 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 use lumisphere_bake::{
-    BakeSettings, BakedEnvironment, LevelReport, RoughnessCurve, VerifyReport, VerifySettings, bake, verify,
+    BakeSettings, BakedEnvironment, ChainSettings, LevelReport, RoughnessCurve, VerifyReport, VerifySettings, bake,
+    verify,
 };
 use lumisphere_bsdf::{DfgTable, Masking};
-use lumisphere_image::{Builtin, CubeChain, Environment};
+use lumisphere_image::{Builtin, Environment};
 use lumisphere_sphere::{Grid, Projection, Rotation};
 use lumisphere_testkit::noise_with_sun;
 use std::f64::consts::FRAC_PI_2;
@@ -38,12 +39,13 @@ fn row(level: &LevelReport) -> String {
 fn assert_contract(name: &str, environment: &Environment, settings: &BakeSettings, texels: usize) {
     let baked = bake(environment.clone(), settings, &|_| ()).unwrap();
     let report = checked(&baked, environment, settings, texels);
-    let rows: Vec<&LevelReport> = report.levels.iter().chain(&report.irradiance).collect();
-    assert_eq!(report.levels.len(), settings.levels());
+    let rows: Vec<&LevelReport> = report.chains.iter().flatten().chain(&report.irradiance).collect();
+    let found: Vec<usize> = report.chains.iter().map(Vec::len).collect();
+    assert_eq!(found, settings.chains.iter().map(ChainSettings::levels).collect::<Vec<_>>());
     let lines: Vec<String> = rows.iter().map(|l| row(l)).collect();
     println!(
         "{name} {:?}\n{}\nsh {:.1e} dfg {:?}",
-        settings.curve,
+        settings.chains,
         lines.join("\n"),
         report.sh_error,
         report.dfg_error
@@ -52,15 +54,19 @@ fn assert_contract(name: &str, environment: &Environment, settings: &BakeSetting
     let mirror_holds =
         |l: &LevelReport| name == "one-texel" && l.relative_rms <= l.limit && (l.energy - 1.0).abs() <= 1e-3;
     let holds = |l: &&LevelReport| l.passes() || (l.perceptual_roughness.value() == 0.0 && mirror_holds(l));
-    assert!(rows.iter().all(holds), "{name} {:?}\n{}", settings.curve, lines.join("\n"));
+    assert!(rows.iter().all(holds), "{name} {:?}\n{}", settings.chains, lines.join("\n"));
     assert!(rows.iter().all(|l| l.seam.is_none_or(|s| s <= LevelReport::SEAM_LIMIT)));
     assert!(report.sh_error <= VerifyReport::SH_LIMIT, "{name} {:e}", report.sh_error);
     assert!(report.dfg_error.is_none_or(|e| e <= VerifyReport::DFG_LIMIT), "{name} {:?}", report.dfg_error);
 }
 
+fn chain(size: usize, level_count: Option<usize>, curve: RoughnessCurve) -> ChainSettings {
+    ChainSettings { size, level_count, curve, ..ChainSettings::default() }
+}
+
 fn small(curve: RoughnessCurve) -> BakeSettings {
-    let mut settings =
-        BakeSettings { size: 64, level_count: Some(7), irradiance_size: 16, curve, ..BakeSettings::preview() };
+    let chains = vec![chain(64, Some(7), curve)];
+    let mut settings = BakeSettings { chains, irradiance_size: 16, ..BakeSettings::preview() };
     settings.outputs.dfg = false;
     settings
 }
@@ -91,7 +97,11 @@ fn a_turned_bake_keeps_the_contract() {
     for rotation in
         [Rotation::from_yaw_pitch_roll(0.7, -0.4, 1.9), Rotation::from_axis_angle([1.0, 0.0, 0.0], FRAC_PI_2)]
     {
-        let settings = BakeSettings { rotation, size: 32, level_count: None, ..small(RoughnessCurve::Quadratic) };
+        let settings = BakeSettings {
+            rotation,
+            chains: vec![chain(32, None, RoughnessCurve::Quadratic)],
+            ..small(RoughnessCurve::Quadratic)
+        };
         assert_contract("turned noise", &environment, &settings, 128);
     }
 }
@@ -100,8 +110,12 @@ fn a_turned_bake_keeps_the_contract() {
 fn the_table_of_directional_albedo_keeps_the_contract() {
     let environment = noise_with_sun(16, 8, 5, 10.0).unwrap();
     for masking in [Masking::SmithGgxCorrelated, Masking::SchlickGgxIbl] {
-        let mut settings =
-            BakeSettings { size: 8, level_count: Some(2), masking, dfg_size: 64, ..BakeSettings::preview() };
+        let mut settings = BakeSettings {
+            chains: vec![chain(8, Some(2), RoughnessCurve::Linear)],
+            masking,
+            dfg_size: 64,
+            ..BakeSettings::preview()
+        };
         settings.outputs.dfg = true;
         let baked = bake(environment.clone(), &settings, &|_| ()).unwrap();
         let error = checked(&baked, &environment, &settings, 16).dfg_error.unwrap();
@@ -120,7 +134,7 @@ fn photographs_keep_the_contract(test: &str, curve: RoughnessCurve) {
         let picture = lumisphere_codec::decode_picture(&bytes, &Default::default()).unwrap();
         let grid = Grid::new(Projection::LatLong, picture.width, picture.height).unwrap();
         let environment = Environment::new(grid, picture.texels).unwrap();
-        let settings = BakeSettings { size: 256, level_count: Some(9), ..small(curve) };
+        let settings = BakeSettings { chains: vec![chain(256, Some(9), curve.clone())], ..small(curve.clone()) };
         assert_contract(name, &environment, &settings, 64);
     }
 }
@@ -148,33 +162,28 @@ const LOD: usize = 1;
 impl Spoiler {
     fn new() -> Self {
         let environment = noise_with_sun(128, 64, 7, 1e3).unwrap();
-        let mut settings = BakeSettings { level_count: Some(4), dfg_size: 16, ..small(RoughnessCurve::Linear) };
+        let mut settings = BakeSettings {
+            chains: vec![chain(64, Some(4), RoughnessCurve::Linear)],
+            dfg_size: 16,
+            ..small(RoughnessCurve::Linear)
+        };
         settings.outputs.dfg = true;
         let baked = bake(environment.clone(), &settings, &|_| ()).unwrap();
         let report = checked(&baked, &environment, &settings, 128);
-        assert!(report.levels.iter().all(LevelReport::passes), "the unspoilt bake must pass");
+        assert!(report.chains[0].iter().all(LevelReport::passes), "the unspoilt bake must pass");
         Self { environment, settings, baked }
     }
 
     /// The report of the bake with each texel (face, x, y) of level `LOD` replaced.
     fn with_level(&self, texel: impl Fn(&Environment, usize, usize, usize) -> [f32; 3]) -> LevelReport {
         let mut baked = self.baked.clone();
-        let chain = baked.specular.as_mut().unwrap();
-        let mut levels = chain.levels.levels().to_vec();
+        let levels = &mut baked.chains[0].levels;
         let size = levels[LOD].grid().width();
         let spoilt = (0..6 * size * size)
-            .map(|i| {
-                texel(
-                    &self.baked.specular.as_ref().unwrap().levels.levels()[LOD],
-                    i / (size * size),
-                    i % size,
-                    i / size % size,
-                )
-            })
+            .map(|i| texel(&self.baked.chains[0].levels[LOD], i / (size * size), i % size, i / size % size))
             .collect();
         levels[LOD] = Environment::new(levels[LOD].grid(), spoilt).unwrap();
-        chain.levels = CubeChain::new(levels).unwrap();
-        let report = checked(&baked, &self.environment, &self.settings, 128).levels[LOD].clone();
+        let report = checked(&baked, &self.environment, &self.settings, 128).chains[0][LOD].clone();
         println!("{}", row(&report));
         report
     }
@@ -185,13 +194,14 @@ fn a_level_of_the_wrong_roughness_is_caught() {
     // By relative RMS.
     let spoiler = Spoiler::new();
     let mut settings = spoiler.settings.clone();
-    settings.curve = RoughnessCurve::Custom(|lod, n| (lod + 1).min(n - 1) as f64 / (n - 1) as f64);
-    let rougher = bake(spoiler.environment.clone(), &settings, &|_| ()).unwrap().specular.unwrap();
-    let report = spoiler.with_level(|_, face, x, y| rougher.levels.levels()[LOD].texel(face, x, y));
+    // Four levels: 0, 1/3, 2/3, 1.
+    settings.chains[0].curve = RoughnessCurve::Levels(vec![0.0, 2.0 / 3.0, 0.9, 1.0]);
+    let rougher = bake(spoiler.environment.clone(), &settings, &|_| ()).unwrap().chains.swap_remove(0);
+    let report = spoiler.with_level(|_, face, x, y| rougher.levels[LOD].texel(face, x, y));
     assert!(!report.passes() && report.relative_rms > 10.0 * report.limit);
     // The next level of the chain itself, each texel four times.
-    let chain = spoiler.baked.specular.as_ref().unwrap();
-    let next = spoiler.with_level(|_, face, x, y| chain.levels.levels()[LOD + 1].texel(face, x / 2, y / 2));
+    let chain = &spoiler.baked.chains[0];
+    let next = spoiler.with_level(|_, face, x, y| chain.levels[LOD + 1].texel(face, x / 2, y / 2));
     assert!(!next.passes() && next.relative_rms > 10.0 * next.limit);
 }
 
@@ -249,11 +259,8 @@ fn spoilt_harmonics_tables_and_irradiance_are_caught() {
     assert!(!report(&baked).irradiance.unwrap().passes());
     // The mirror level a thousandth too bright.
     let mut baked = spoiler.baked.clone();
-    let chain = baked.specular.as_mut().unwrap();
-    let mut levels = chain.levels.levels().to_vec();
-    levels[0].texels_mut().iter_mut().flatten().for_each(|v| *v *= 1.01);
-    chain.levels = CubeChain::new(levels).unwrap();
-    assert!(!report(&baked).levels[0].passes());
+    baked.chains[0].levels[0].texels_mut().iter_mut().flatten().for_each(|v| *v *= 1.01);
+    assert!(!report(&baked).chains[0][0].passes());
 }
 
 #[test]
@@ -261,10 +268,10 @@ fn a_list_of_roughness_from_another_curve_is_caught() {
     // The levels and the list agree with each other, not with the settings.
     let spoiler = Spoiler::new();
     let mut settings = spoiler.settings.clone();
-    settings.curve = RoughnessCurve::Custom(|lod, _| [0.0, 0.4, 0.7, 1.0][lod]);
+    settings.chains[0].curve = RoughnessCurve::Levels(vec![0.0, 0.4, 0.7, 1.0]);
     let baked = bake(spoiler.environment.clone(), &settings, &|_| ()).unwrap();
     let report = checked(&baked, &spoiler.environment, &spoiler.settings, 128);
-    assert!(!report.levels.iter().all(LevelReport::passes), "{report:?}");
+    assert!(!report.chains[0].iter().all(LevelReport::passes), "{report:?}");
 }
 
 #[test]
@@ -279,10 +286,15 @@ fn a_table_with_another_masking_is_caught() {
 #[test]
 fn a_chain_of_another_length_is_refused() {
     let environment = noise_with_sun(64, 32, 1, 10.0).unwrap();
-    let long = BakeSettings { size: 16, level_count: Some(4), ..BakeSettings::preview() };
-    let short = BakeSettings { level_count: Some(3), ..long.clone() };
-    let baked = bake(environment.clone(), &long, &|_| ()).unwrap();
+    let settings = |level_counts: &[usize]| {
+        let chains = level_counts.iter().map(|n| chain(16, Some(*n), RoughnessCurve::Linear)).collect();
+        BakeSettings { chains, ..BakeSettings::preview() }
+    };
+    let baked = bake(environment.clone(), &settings(&[4]), &|_| ()).unwrap();
     let exact = VerifySettings { texels: 4, quantise: &|texel| texel };
-    let refused = verify(&baked, environment, &short, &exact, &|_| ()).unwrap_err();
-    assert_eq!(refused.to_string(), "level count of the chain must be that of the settings, found 4");
+    let refused = |asked: &[usize]| {
+        verify(&baked, environment.clone(), &settings(asked), &exact, &|_| ()).unwrap_err().to_string()
+    };
+    assert_eq!(refused(&[3]), "level count of the chain must be that of the settings, found 4");
+    assert_eq!(refused(&[4, 3]), "chain count must be that of the settings, found 1");
 }

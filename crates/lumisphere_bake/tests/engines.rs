@@ -1,7 +1,9 @@
 //! The engines against each other, the sample counts, and the bytes for any number of threads.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
-use lumisphere_bake::{BakeSettings, BakedEnvironment, Engine, Outputs, RoughnessCurve, SampleLookup, bake};
+use lumisphere_bake::{
+    BakeSettings, BakedEnvironment, ChainSettings, Engine, Outputs, RoughnessCurve, SampleLookup, bake,
+};
 use lumisphere_bsdf::{LobeShape, LobeWeight};
 use lumisphere_image::Environment;
 use lumisphere_sphere::sequence::halton;
@@ -14,8 +16,14 @@ const SHAPES: [LobeShape; 5] =
 const WEIGHTS: [LobeWeight; 3] = [LobeWeight::None, LobeWeight::NDotL, LobeWeight::Full];
 
 fn chain_only(size: usize, levels: usize, curve: RoughnessCurve) -> BakeSettings {
-    let outputs = Outputs { specular: true, irradiance: false, skybox: false, dfg: false };
-    BakeSettings { size, level_count: Some(levels), curve, outputs, ..BakeSettings::preview() }
+    let outputs = Outputs { irradiance: false, skybox: false, dfg: false };
+    let chain = ChainSettings { size, level_count: Some(levels), curve, ..ChainSettings::default() };
+    BakeSettings { chains: vec![chain], outputs, ..BakeSettings::preview() }
+}
+
+/// Two levels, the mirror and one of this p.
+fn level_1_at(p: f64) -> RoughnessCurve {
+    RoughnessCurve::Levels(vec![0.0, p])
 }
 
 fn baked(environment: &Environment, settings: &BakeSettings) -> BakedEnvironment {
@@ -23,7 +31,7 @@ fn baked(environment: &Environment, settings: &BakeSettings) -> BakedEnvironment
 }
 
 fn levels(environment: &Environment, settings: &BakeSettings) -> Vec<Environment> {
-    baked(environment, settings).specular.unwrap().levels.levels().to_vec()
+    baked(environment, settings).chains.swap_remove(0).levels
 }
 
 fn with_engine(settings: &BakeSettings, engine: Engine) -> BakeSettings {
@@ -34,7 +42,7 @@ fn with_engine(settings: &BakeSettings, engine: Engine) -> BakeSettings {
 fn compare(environment: &Environment, settings: &BakeSettings, tolerance: f64, failures: &mut Vec<String>) {
     let spectral = levels(environment, &with_engine(settings, Engine::Spectral));
     let exact = levels(environment, &with_engine(settings, Engine::Quadrature));
-    for (lod, p) in settings.roughness().iter().enumerate().skip(1) {
+    for (lod, p) in settings.chains[0].roughness().iter().enumerate().skip(1) {
         let error = relative_rms_rgb(spectral[lod].texels(), exact[lod].texels());
         let line = format!(
             "{}x{} {:?} {:?} p {:.3} alpha {:.5}: {error:.2e}",
@@ -79,11 +87,9 @@ fn sharp_spectral_levels_are_the_sum_over_texels() {
         // α = 0.0169, above the contract's first step; and 0.0049, above its second. A sheen lobe that narrow is a line on the
         // horizon, which 1024 bands cut: measured 1.96e-3, the one case over the contract.
         let sharpest = if lobe == LobeShape::Charlie { CHARLIE_SHARPEST } else { 1e-3 };
-        for (curve, tolerance) in
-            [(RoughnessCurve::Custom(|_, _| 0.13), 1e-4), (RoughnessCurve::Custom(|_, _| 0.07), sharpest)]
-        {
+        for (curve, tolerance) in [(level_1_at(0.13), 1e-4), (level_1_at(0.07), sharpest)] {
             for weight in [LobeWeight::NDotL, LobeWeight::None] {
-                let settings = BakeSettings { lobe, weight, ..chain_only(4, 2, curve) };
+                let settings = BakeSettings { lobe, weight, ..chain_only(4, 2, curve.clone()) };
                 compare(&environment, &settings, tolerance, &mut failures);
             }
         }
@@ -100,22 +106,20 @@ fn smooth_environment() -> Environment {
     Environment::from_fn(Grid::new(Projection::LatLong, 128, 64).unwrap(), smooth)
 }
 
-fn monte_carlo(samples: usize, lookup: SampleLookup, locality: f64, curve: RoughnessCurve) -> BakeSettings {
-    let mut settings = with_engine(&chain_only(16, 2, curve), Engine::MonteCarlo);
+fn monte_carlo(samples: usize, lookup: SampleLookup, locality: f64, p: f64) -> BakeSettings {
+    let mut settings = with_engine(&chain_only(16, 2, level_1_at(p)), Engine::MonteCarlo);
     settings.monte_carlo.samples = samples;
     settings.monte_carlo.lookup = lookup;
     settings.monte_carlo.locality = locality;
     settings
 }
 
-const HALF_ROUGH: RoughnessCurve = RoughnessCurve::Custom(|_, _| 0.5);
-
 #[test]
 fn more_samples_come_nearer_to_the_sum() {
     let environment = noise_with_sun(64, 32, 4, 50.0).unwrap();
-    let exact = levels(&environment, &with_engine(&chain_only(16, 2, HALF_ROUGH), Engine::Quadrature));
+    let exact = levels(&environment, &with_engine(&chain_only(16, 2, level_1_at(0.5)), Engine::Quadrature));
     let error = |samples: usize| {
-        let found = levels(&environment, &monte_carlo(samples, SampleLookup::Base, 1.0, HALF_ROUGH));
+        let found = levels(&environment, &monte_carlo(samples, SampleLookup::Base, 1.0, 0.5));
         relative_rms_rgb(found[1].texels(), exact[1].texels())
     };
     let (few, some, many) = (error(16), error(64), error(1024));
@@ -127,15 +131,15 @@ fn more_samples_come_nearer_to_the_sum() {
 #[test]
 fn a_smooth_environment_needs_few_samples() {
     let environment = smooth_environment();
-    for curve in [HALF_ROUGH, RoughnessCurve::Custom(|_, _| 1.0), RoughnessCurve::Custom(|_, _| 0.25)] {
-        let exact = levels(&environment, &with_engine(&chain_only(16, 2, curve), Engine::Quadrature));
+    for p in [0.5, 1.0, 0.25] {
+        let exact = levels(&environment, &with_engine(&chain_only(16, 2, level_1_at(p)), Engine::Quadrature));
         for lookup in [SampleLookup::Base, SampleLookup::Mip] {
             let error = |samples: usize| {
-                let found = levels(&environment, &monte_carlo(samples, lookup, 1.0, curve));
+                let found = levels(&environment, &monte_carlo(samples, lookup, 1.0, p));
                 relative_rms_rgb(found[1].texels(), exact[1].texels())
             };
             let (some, many) = (error(64), error(1024));
-            println!("{:?} {lookup:?} {some:.2e} {many:.2e}", curve.perceptual_roughness(1, 2));
+            println!("{p} {lookup:?} {some:.2e} {many:.2e}");
             // The discrepancy of N Hammersley points is about ln N / N, 0.065 and 0.0068, times the slope 1 over the
             // mean 1, less than half of it seen by a lobe; mips add their blur, at most 1e-2 of a slope of 1.
             assert!(some < 0.03 && many < 0.01 && many < some, "{lookup:?} {some} {many}");
@@ -151,7 +155,7 @@ fn base_lookups_are_unbiased() {
     let offset = |i: u64, spoil: f64| {
         let [a, b] = halton(i + 1);
         let [c, _] = halton(i + 57);
-        let mut settings = monte_carlo(64, SampleLookup::Base, 1.0, HALF_ROUGH);
+        let mut settings = monte_carlo(64, SampleLookup::Base, 1.0, 0.5);
         settings.rotation = Rotation::from_yaw_pitch_roll(TAU * a, (2.0 * b - 1.0).asin(), TAU * c);
         spoil * levels(&environment, &settings)[1].mean()[0] / mean - 1.0
     };
@@ -171,24 +175,21 @@ fn base_lookups_are_unbiased() {
 #[test]
 fn locality_counts_samples_by_the_published_formula() {
     let environment = noise_with_sun(64, 32, 8, 50.0).unwrap();
-    let curves: [(f64, RoughnessCurve); 3] =
-        [(0.25, RoughnessCurve::Custom(|_, _| 0.25)), (0.5, HALF_ROUGH), (0.8, RoughnessCurve::Custom(|_, _| 0.8))];
-    for (p, curve) in curves {
+    for p in [0.25, 0.5, 0.8_f64] {
         for u in [0.5, 0.9, 0.99] {
             // Open CASCADE's PBR math: N(r) = N(1) 2/π arccos √((1 - u)/(u (α² - 1) + 1)), α = p².
-            let alpha: f64 = p * p;
+            let alpha = p * p;
             let angle = ((1.0 - u) / (u * (alpha * alpha - 1.0) + 1.0)).sqrt().acos();
             let count = (512.0 * angle / FRAC_PI_2).ceil() as usize;
             assert!(count < 512);
-            let few = levels(&environment, &monte_carlo(512, SampleLookup::Mip, u, curve));
-            assert_eq!(few, levels(&environment, &monte_carlo(count, SampleLookup::Mip, 1.0, curve)), "p {p} u {u}");
-            assert_ne!(few, levels(&environment, &monte_carlo(512, SampleLookup::Mip, 1.0, curve)), "p {p} u {u}");
+            let few = levels(&environment, &monte_carlo(512, SampleLookup::Mip, u, p));
+            assert_eq!(few, levels(&environment, &monte_carlo(count, SampleLookup::Mip, 1.0, p)), "p {p} u {u}");
+            assert_ne!(few, levels(&environment, &monte_carlo(512, SampleLookup::Mip, 1.0, p)), "p {p} u {u}");
         }
     }
     // p = 1 keeps N whatever u.
-    let rough = RoughnessCurve::Custom(|_, _| 1.0);
-    let all = levels(&environment, &monte_carlo(512, SampleLookup::Mip, 1.0, rough));
-    assert_eq!(all, levels(&environment, &monte_carlo(512, SampleLookup::Mip, 0.5, rough)));
+    let all = levels(&environment, &monte_carlo(512, SampleLookup::Mip, 1.0, 1.0));
+    assert_eq!(all, levels(&environment, &monte_carlo(512, SampleLookup::Mip, 0.5, 1.0)));
 }
 
 #[test]
@@ -196,7 +197,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
     let environment = noise_with_sun(100, 50, 9, 1e4).unwrap();
     let angular = Environment::from_fn(Grid::new(Projection::AngularMap, 40, 40).unwrap(), smooth);
     // The first level is split, the others are not.
-    let curve = RoughnessCurve::Custom(|lod, _| [0.0, 0.09, 0.4, 1.0][lod]);
+    let curve = RoughnessCurve::Levels(vec![0.0, 0.09, 0.4, 1.0]);
     for engine in [Engine::Spectral, Engine::MonteCarlo, Engine::Quadrature] {
         for source in [&environment, &angular] {
             let rotation = Rotation::from_yaw_pitch_roll(0.3, 0.2, -1.0);
@@ -207,7 +208,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
                 dfg_size: 8,
                 irradiance_size: 4,
                 sh_bands: 6,
-                ..chain_only(8, 4, curve)
+                ..chain_only(8, 4, curve.clone())
             };
             let mut settings = settings;
             settings.monte_carlo.samples = 128;
@@ -224,8 +225,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
 
 /// Every number of a bake.
 fn bits(baked: &BakedEnvironment) -> Vec<u64> {
-    let chain = baked.specular.as_ref().unwrap();
-    let images = chain.levels.levels().iter().chain(&baked.irradiance).chain(&baked.skybox);
+    let images = baked.chains.iter().flat_map(|c| &c.levels).chain(&baked.irradiance).chain(&baked.skybox);
     let mut bits: Vec<u64> = images.flat_map(|i| i.texels().iter().flatten()).map(|v| u64::from(v.to_bits())).collect();
     bits.extend(baked.sh.values().iter().flatten().map(|v| v.to_bits()));
     bits.extend(baked.dfg.as_ref().unwrap().texels().iter().flatten().map(|v| u64::from(v.to_bits())));
@@ -233,19 +233,19 @@ fn bits(baked: &BakedEnvironment) -> Vec<u64> {
 }
 
 #[test]
-fn a_custom_curve_is_followed() {
+fn listed_roughness_is_followed() {
     let environment = noise_with_sun(64, 32, 10, 50.0).unwrap();
-    let settings = chain_only(16, 4, RoughnessCurve::Custom(|lod, _| [0.7, 0.3, 2.0, -1.0][lod]));
-    let chain = baked(&environment, &settings).specular.unwrap();
-    // Level 0 is the mirror whatever the curve; values are clamped.
+    let settings = chain_only(16, 4, RoughnessCurve::Levels(vec![0.0, 0.3, 0.35, 1.0]));
+    let chain = baked(&environment, &settings).chains.swap_remove(0);
     let found: Vec<f64> = chain.roughness.iter().map(|p| p.value()).collect();
-    assert_eq!(found, [0.0, 0.3, 1.0, 0.0]);
-    let linear = chain_only(16, 2, RoughnessCurve::Custom(|_, _| 0.3));
-    let direct = baked(&environment, &linear).specular.unwrap();
-    // The other levels' α = 0 makes the source finer: equal but for that.
-    let apart = relative_rms_rgb(chain.levels.levels()[1].texels(), direct.levels.levels()[1].texels());
-    assert!(apart < 0.02, "{apart}");
+    assert_eq!(found, [0.0, 0.3, 0.35, 1.0]);
+    // The list gives the count; the sharpest lobe is the same, so the level is the same.
+    let mut two = chain_only(16, 2, level_1_at(0.3));
+    two.chains[0].level_count = None;
+    let direct = baked(&environment, &two).chains.swap_remove(0);
+    assert_eq!(direct.levels.len(), 2);
+    assert_eq!(chain.levels[1], direct.levels[1]);
     // And it is not the level of another roughness.
-    let other = baked(&environment, &chain_only(16, 2, HALF_ROUGH)).specular.unwrap();
-    assert!(relative_rms_rgb(direct.levels.levels()[1].texels(), other.levels.levels()[1].texels()) > 0.1);
+    let other = baked(&environment, &chain_only(16, 2, level_1_at(0.5))).chains.swap_remove(0);
+    assert!(relative_rms_rgb(direct.levels[1].texels(), other.levels[1].texels()) > 0.1);
 }

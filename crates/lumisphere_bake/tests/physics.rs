@@ -1,7 +1,9 @@
 //! What the physics says a bake must be: closed forms, furnaces, energy, symmetry, and inputs at the edge.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
-use lumisphere_bake::{BakeError, BakeSettings, BakedEnvironment, Engine, Outputs, RoughnessCurve, bake};
+use lumisphere_bake::{
+    BakeError, BakeSettings, BakedEnvironment, ChainSettings, Engine, Outputs, RoughnessCurve, bake,
+};
 use lumisphere_bsdf::{LobeShape, LobeWeight, Masking, PerceptualRoughness, dfg::ggx_average_albedo};
 use lumisphere_image::{Builtin, Environment, Rgb, resample};
 use lumisphere_sh::packed::{FilamentNine, IrradianceMatrix, SevenVectors, irradiance};
@@ -16,14 +18,9 @@ const LEVEL_TOLERANCE: f64 = 1e-4;
 
 fn small(size: usize, levels: usize, curve: RoughnessCurve) -> BakeSettings {
     let outputs = Outputs { dfg: false, ..Outputs::ALL };
-    let mut settings = BakeSettings {
-        size,
-        level_count: Some(levels),
-        irradiance_size: (size / 2).max(1),
-        curve,
-        outputs,
-        ..BakeSettings::preview()
-    };
+    let chain = ChainSettings { size, level_count: Some(levels), curve, ..ChainSettings::default() };
+    let mut settings =
+        BakeSettings { chains: vec![chain], irradiance_size: (size / 2).max(1), outputs, ..BakeSettings::preview() };
     settings.monte_carlo.samples = 128;
     settings
 }
@@ -33,7 +30,7 @@ fn baked(environment: &Environment, settings: &BakeSettings) -> BakedEnvironment
 }
 
 fn level(baked: &BakedEnvironment, lod: usize) -> &Environment {
-    &baked.specular.as_ref().unwrap().levels.levels()[lod]
+    &baked.chains[0].levels[lod]
 }
 
 fn grid(projection: Projection, width: usize, height: usize) -> Grid {
@@ -47,11 +44,14 @@ fn directions(cube: &Environment) -> Vec<Vec3> {
 
 /// Every image of a bake.
 fn images(baked: &BakedEnvironment) -> Vec<&Environment> {
-    let chain = baked.specular.iter().flat_map(|c| c.levels.levels());
+    let chain = baked.chains.iter().flat_map(|c| &c.levels);
     chain.chain(&baked.irradiance).chain(&baked.skybox).collect()
 }
 
-const ROUGH: RoughnessCurve = RoughnessCurve::Custom(|_, _| 1.0);
+/// Two levels, the mirror and one of this p.
+fn level_1_at(p: f64) -> RoughnessCurve {
+    RoughnessCurve::Levels(vec![0.0, p])
+}
 
 #[test]
 fn the_roughest_level_is_irradiance_over_pi() {
@@ -59,7 +59,7 @@ fn the_roughest_level_is_irradiance_over_pi() {
     let environment = noise_with_sun(64, 32, 1, 1e4).unwrap();
     for engine in [Engine::Spectral, Engine::Quadrature] {
         let worst = |weight: LobeWeight| {
-            let bake = baked(&environment, &BakeSettings { engine, weight, ..small(32, 2, ROUGH) });
+            let bake = baked(&environment, &BakeSettings { engine, weight, ..small(32, 2, level_1_at(1.0)) });
             let pairs = level(&bake, 1).texels().iter().zip(bake.irradiance.as_ref().unwrap().texels());
             pairs.map(|(l, e)| (f64::from(l[0]) * PI / f64::from(e[0]) - 1.0).abs()).fold(0.0, f64::max)
         };
@@ -93,7 +93,7 @@ fn a_white_furnace_stays_white() {
 /// The images that are not `value`, to 1e-4 from both sides.
 fn furnace_errors(baked: &BakedEnvironment, value: f32, settings: &BakeSettings) -> Vec<String> {
     let name = format!("{:?} {:?} {:?} {value}", settings.engine, settings.lobe, settings.weight);
-    let levels = settings.levels();
+    let levels = settings.chains[0].levels();
     let mut failures = Vec::new();
     for (i, image) in images(baked).into_iter().enumerate() {
         let scale = f64::from(value) * if i == levels { PI } else { 1.0 };
@@ -114,7 +114,7 @@ fn furnace_errors(baked: &BakedEnvironment, value: f32, settings: &BakeSettings)
 fn furnaces_of_any_size_stay_white() {
     let mut failures = Vec::new();
     for (width, height) in [(1, 1), (2, 1), (3, 2), (8, 4), (17, 9), (32, 16), (64, 32), (128, 64)] {
-        let settings = BakeSettings { size: 16, irradiance_size: 16, ..small(16, 5, RoughnessCurve::Linear) };
+        let settings = BakeSettings { irradiance_size: 16, ..small(16, 5, RoughnessCurve::Linear) };
         let bake = baked(&constant(width, height, [1.0; 3]).unwrap(), &settings);
         let errors = furnace_errors(&bake, 1.0, &settings);
         failures.extend(errors.into_iter().map(|e| format!("{width}x{height} {e}")));
@@ -171,8 +171,11 @@ fn every_level_holds_the_light_of_the_environment() {
     let mean = environment.mean();
     let turned = Rotation::from_yaw_pitch_roll(0.7, -0.4, 1.9);
     for engine in ENGINES {
-        let levels =
-            if engine == Engine::Quadrature { RoughnessCurve::Custom(|_, _| 0.8) } else { RoughnessCurve::Linear };
+        let levels = if engine == Engine::Quadrature {
+            RoughnessCurve::Levels(vec![0.0, 0.7, 0.8, 0.9])
+        } else {
+            RoughnessCurve::Linear
+        };
         let settings = BakeSettings { engine, rotation: turned, ..small(16, 4, levels) };
         let bake = baked(&environment, &settings);
         for (lod, image) in images(&bake).into_iter().enumerate() {
@@ -193,7 +196,7 @@ fn the_light_of_one_texel_is_whole_in_every_level() {
     // Negative and positive at once: the mean of each level is the light over 4π. Levels are sampled at texel centres:
     // the narrowest lobe, α = 0.25, is 0.5 wide, 20 texels of a 64² face; the midpoint error is below 1e-3.
     let environment = Builtin::OneTexel.render(64);
-    for p in [ROUGH, RoughnessCurve::Custom(|_, _| 0.5), RoughnessCurve::Custom(|_, _| 0.7)] {
+    for p in [level_1_at(1.0), level_1_at(0.5), level_1_at(0.7)] {
         let bake = baked(&environment, &small(128, 2, p));
         let light = level(&bake, 1).mean()[0] * 4.0 * PI;
         assert!((light - 1.0).abs() < 1e-3, "{light}");
@@ -211,8 +214,8 @@ fn irradiance_of_one_texel_is_a_clamped_cosine() {
     let lat_long = environment.grid();
     let peak = lat_long.texel_solid_angle(0, x, y) * 3e4;
     let sun = lat_long.texel_direction(0, x, y).unwrap();
-    let mut settings = small(32, 2, ROUGH);
-    settings.outputs.specular = false;
+    let mut settings = small(32, 2, level_1_at(1.0));
+    settings.chains.clear();
     let irradiance = baked(&environment, &settings).irradiance.unwrap();
     let mut worst = [0.0_f64; 2];
     for (d, e) in directions(&irradiance).into_iter().zip(irradiance.texels()) {
@@ -231,11 +234,11 @@ fn harmonics_of_one_texel_light_as_the_published_polynomial() {
     let at = environment.texels().iter().position(|t| t[0] > 0.0).unwrap();
     let sun = environment.grid().texel_direction(0, at % 512, at / 512).unwrap();
     let rotation = Rotation::from_yaw_pitch_roll(0.7, -0.4, 1.9);
-    let mut settings = BakeSettings { rotation, ..small(8, 1, ROUGH) };
-    settings.outputs = Outputs { specular: false, irradiance: false, skybox: false, dfg: false };
+    let mut settings = BakeSettings { rotation, ..small(8, 1, RoughnessCurve::Linear) };
+    settings.outputs = Outputs { irradiance: false, skybox: false, dfg: false };
     let sh = baked(&environment, &settings).sh;
     let sun = rotation.apply(sun);
-    let probe = baked(&constant(4, 2, [1.0; 3]).unwrap(), &small(4, 1, ROUGH)).skybox.unwrap();
+    let probe = baked(&constant(4, 2, [1.0; 3]).unwrap(), &small(4, 1, RoughnessCurve::Linear)).skybox.unwrap();
     for n in directions(&probe).into_iter().chain([sun, sun.map(|v| -v)]) {
         let x = dot(n, sun);
         let expected = 3.0 / 32.0 + x / 2.0 + 15.0 * x * x / 32.0;
@@ -264,14 +267,14 @@ fn turning_the_settings_turns_the_environment() {
     let lat_long = grid(Projection::LatLong, 1024, 512);
     let environment = Environment::from_fn(lat_long, gentle);
     // α = 0.0081 is split, the next levels are not.
-    let curve = RoughnessCurve::Custom(|lod, _| [0.0, 0.09, 0.3, 0.8][lod]);
+    let curve = RoughnessCurve::Levels(vec![0.0, 0.09, 0.3, 0.8]);
     for rotation in
         [Rotation::from_yaw_pitch_roll(0.7, -0.4, 1.9), Rotation::from_axis_angle([1.0, 0.0, 0.0], FRAC_PI_2)]
     {
         let back = rotation.inverse();
-        let turned = baked(&Environment::from_fn(lat_long, |d| gentle(back.apply(d))), &small(32, 4, curve));
-        let found = baked(&environment, &BakeSettings { rotation, ..small(32, 4, curve) });
-        let wrong = baked(&environment, &BakeSettings { rotation: back, ..small(32, 4, curve) });
+        let turned = baked(&Environment::from_fn(lat_long, |d| gentle(back.apply(d))), &small(32, 4, curve.clone()));
+        let found = baked(&environment, &BakeSettings { rotation, ..small(32, 4, curve.clone()) });
+        let wrong = baked(&environment, &BakeSettings { rotation: back, ..small(32, 4, curve.clone()) });
         for (i, image) in images(&turned).into_iter().enumerate() {
             let error = relative_rms_rgb(images(&found)[i].texels(), image.texels());
             println!("image {i} {error:.1e}");
@@ -295,7 +298,7 @@ fn turning_by_whole_columns_moves_the_columns() {
     let moved: Vec<Rgb> =
         (0..width * height).map(|i| environment.texel(0, (i % width + k) % width, i / width)).collect();
     let moved = Environment::new(environment.grid(), moved).unwrap();
-    let settings = small(16, 3, RoughnessCurve::Custom(|lod, _| [0.0, 0.09, 0.4][lod]));
+    let settings = small(16, 3, RoughnessCurve::Levels(vec![0.0, 0.09, 0.4]));
     let (found, expected) =
         (baked(&environment, &BakeSettings { rotation, ..settings.clone() }), baked(&moved, &settings));
     for (i, image) in images(&expected).into_iter().enumerate() {
@@ -383,7 +386,7 @@ fn tiny_environments_and_sizes_bake() {
                 let levels = (size as f64).log2() as usize + 1;
                 let settings = BakeSettings { engine, ..small(size, levels, RoughnessCurve::Linear) };
                 let bake = baked(&environment, &settings);
-                assert_eq!(bake.specular.as_ref().unwrap().levels.levels().len(), levels);
+                assert_eq!(bake.chains[0].levels.len(), levels);
                 for (i, image) in images(&bake).into_iter().enumerate() {
                     // Means of values between 0.5 and 1.7, irradiance up to 1.7 π.
                     let inside = |v: &f32| (0.4..6.0).contains(v);
@@ -439,7 +442,7 @@ fn texels_that_are_no_radiance_are_refused() {
             let mut environment = Environment::filled(grid(projection, if lat_long { 16 } else { 8 }, 8), [1.0; 3]);
             environment.texels_mut()[5][2] = bad;
             environment.texels_mut()[9] = [bad; 3];
-            let error = bake(environment, &small(8, 2, ROUGH), &|_| ()).unwrap_err();
+            let error = bake(environment, &small(8, 2, level_1_at(1.0)), &|_| ()).unwrap_err();
             assert_eq!(error, BakeError::Unclean { count: 2 });
             assert_eq!(error.to_string(), "the environment has 2 texels that are negative or not finite");
         }
@@ -450,14 +453,14 @@ fn texels_that_are_no_radiance_are_refused() {
 fn settings_out_of_range_are_refused_with_what_was_found_and_expected() {
     type Change = fn(&mut BakeSettings);
     let cases: [(Change, &str, &str); 14] = [
-        (|s| s.size = 0, "size", "0"),
-        (|s| s.size = 48, "size", "48"),
-        (|s| s.size = 16384, "size", "16384"),
+        (|s| s.chains[0].size = 0, "size", "0"),
+        (|s| s.chains[0].size = 48, "size", "48"),
+        (|s| s.chains[0].size = 16384, "size", "16384"),
         (|s| s.irradiance_size = 0, "irradiance size", "0"),
         (|s| s.skybox_size = Some(9000), "skybox size", "9000"),
         (|s| s.dfg_size = 0, "DFG size", "0"),
-        (|s| s.level_count = Some(0), "level count", "0"),
-        (|s| s.level_count = Some(5), "level count", "5"),
+        (|s| s.chains[0].level_count = Some(0), "level count", "0"),
+        (|s| s.chains[0].level_count = Some(5), "level count", "5"),
         (|s| s.sh_bands = 0, "SH band count", "0"),
         (|s| s.sh_bands = 33, "SH band count", "33"),
         (|s| s.lobe = LobeShape::Cosine, "lobe", "cosine"),
@@ -466,7 +469,7 @@ fn settings_out_of_range_are_refused_with_what_was_found_and_expected() {
         (|s| s.monte_carlo.locality = f64::NAN, "locality", "NaN"),
     ];
     for (change, name, found) in cases {
-        let mut settings = small(8, 2, ROUGH);
+        let mut settings = small(8, 2, level_1_at(1.0));
         change(&mut settings);
         let error = bake(constant(8, 4, [1.0; 3]).unwrap(), &settings, &|_| ()).unwrap_err();
         let BakeError::Setting { name: named, found: said, expected } = &error else { panic!("{error}") };
@@ -483,11 +486,11 @@ fn settings_out_of_range_are_refused_with_what_was_found_and_expected() {
 fn a_single_level_is_the_resampled_picture() {
     let environment = noise_with_sun(32, 16, 6, 100.0).unwrap();
     let rotation = Rotation::from_yaw_pitch_roll(0.7, -0.4, 1.9);
-    let bake = baked(&environment, &BakeSettings { rotation, ..small(8, 1, ROUGH) });
+    let bake = baked(&environment, &BakeSettings { rotation, ..small(8, 1, RoughnessCurve::Linear) });
     let expected = resample(&environment, grid(Projection::Cube, 8, 8), &rotation);
     assert_eq!(level(&bake, 0), &expected);
     assert_eq!(bake.skybox.as_ref(), Some(&expected));
-    assert_eq!(bake.specular.unwrap().roughness, [PerceptualRoughness::clamped(0.0)]);
+    assert_eq!(bake.chains[0].roughness, [PerceptualRoughness::clamped(0.0)]);
     // The texel towards a direction R s holds the light from s.
     let sun = normalize(environment.grid().texel_direction(0, 20, 4).unwrap());
     let at = expected.grid().position(rotation.apply(sun));

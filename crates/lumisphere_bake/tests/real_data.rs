@@ -14,7 +14,7 @@ use common_data::measure::{
 };
 use common_data::turn::{Turn, ranked};
 use common_data::{cube_of_files, data, environment, lifted, mirrored, say};
-use lumisphere_bake::{BakeSettings, BakedEnvironment, Outputs, RoughnessCurve, bake};
+use lumisphere_bake::{BakeSettings, BakedEnvironment, ChainSettings, Outputs, RoughnessCurve, bake};
 use lumisphere_bsdf::{Alpha, Lobe, LobeShape, LobeWeight};
 use lumisphere_image::{Environment, resample};
 use lumisphere_sh::packed::{FilamentNine, form_factor};
@@ -27,11 +27,12 @@ const SUM_TEXELS: usize = 12;
 /// Our bakes against that sum, relative RMS: the project's contract for α ≥ 0.015.
 const OUR_ERROR: f64 = 1e-4;
 
-const WANTED: Outputs = Outputs { specular: true, irradiance: true, skybox: false, dfg: false };
+const WANTED: Outputs = Outputs { irradiance: true, skybox: false, dfg: false };
 
 /// Faces of 64, 32 and 16 at p = 0, 0.5 and 1, and irradiance at 32².
 fn three_levels() -> BakeSettings {
-    BakeSettings { size: 64, level_count: Some(3), outputs: WANTED, ..BakeSettings::standard() }
+    let chain = ChainSettings { size: 64, level_count: Some(3), ..ChainSettings::default() };
+    BakeSettings { chains: vec![chain], outputs: WANTED, ..BakeSettings::standard() }
 }
 
 fn baked(environment: Environment, settings: &BakeSettings) -> BakedEnvironment {
@@ -39,7 +40,7 @@ fn baked(environment: Environment, settings: &BakeSettings) -> BakedEnvironment 
 }
 
 fn level(baked: &BakedEnvironment, lod: usize) -> &Environment {
-    &baked.specular.as_ref().unwrap().levels.levels()[lod]
+    &baked.chains[0].levels[lod]
 }
 
 fn irradiance(baked: &BakedEnvironment) -> &Environment {
@@ -225,7 +226,8 @@ fn cmgen_differs_from_us_by_its_known_errors() {
     let (world, rotation) = turn.before_bake(&source);
     let curve = RoughnessCurve::Quadratic;
     let outputs = Outputs { irradiance: false, ..WANTED };
-    let settings = BakeSettings { level_count: Some(5), outputs, curve, rotation, ..BakeSettings::standard() };
+    let chains = vec![ChainSettings { level_count: Some(5), curve, ..ChainSettings::default() }];
+    let settings = BakeSettings { chains, outputs, rotation, ..BakeSettings::standard() };
     let ours = baked(world, &settings);
     let exact = texels(&source);
     say("cmgen level | p | theirs - ours | theirs - ours shifted (+ +), (- -) | p fitted | linear p | ours - sum");
@@ -234,7 +236,7 @@ fn cmgen_differs_from_us_by_its_known_errors() {
     assert!(mirror < CMGEN_MIRROR, "{mirror}");
     for lod in 1..5 {
         let theirs = &file.levels[lod];
-        let p = ours.specular.as_ref().unwrap().roughness[lod].value();
+        let p = ours.chains[0].roughness[lod].value();
         let misfit = |p: f64, shift: f64| filtered.misfit(theirs, p, [shift, shift], |d| turn.apply(d));
         let found = difference(theirs, level(&ours, lod));
         let (shifted, other_way) = (misfit(p, 0.5), misfit(p, -0.5));
@@ -350,8 +352,8 @@ fn diffuse(name: &str, theirs: &Environment, source: &Environment) -> Diffuse {
 
 /// Our irradiance cube of a lat-long source against the sum.
 fn own_irradiance_error(source: &Environment) -> f64 {
-    let outputs = Outputs { specular: false, ..WANTED };
-    let ours = baked(source.clone(), &BakeSettings { outputs, ..BakeSettings::preview() });
+    let settings = BakeSettings { chains: Vec::new(), outputs: WANTED, ..BakeSettings::preview() };
+    let ours = baked(source.clone(), &settings);
     let scaled = irradiance(&ours).texels().iter().map(|t| t.map(|v| (f64::from(v) / PI) as f32)).collect();
     let scaled = Environment::new(irradiance(&ours).grid(), scaled).unwrap();
     error_against_sum(&scaled, &texels(source), &cosine(), SUM_TEXELS, |d| d)

@@ -12,8 +12,21 @@ pub enum FileFormat {
     Exr,
     /// Portable Network Graphics.
     Png,
+    /// Khronos texture container, version 1.
+    Ktx1,
     /// Khronos texture container, version 2.
     Ktx2,
+    /// DirectDraw surface.
+    Dds,
+    /// Babylon.js environment.
+    Env,
+}
+
+impl FileFormat {
+    /// Whether files of this format hold levels or faces, and not one flat picture.
+    pub fn is_texture(self) -> bool {
+        matches!(self, Self::Ktx1 | Self::Ktx2 | Self::Dds | Self::Env)
+    }
 }
 
 impl fmt::Display for FileFormat {
@@ -22,7 +35,10 @@ impl fmt::Display for FileFormat {
             Self::Hdr => "Radiance HDR",
             Self::Exr => "OpenEXR",
             Self::Png => "PNG",
+            Self::Ktx1 => "KTX1",
             Self::Ktx2 => "KTX2",
+            Self::Dds => "DDS",
+            Self::Env => "Babylon.js .env",
         })
     }
 }
@@ -32,7 +48,9 @@ impl fmt::Display for FileFormat {
 #[non_exhaustive]
 pub enum CodecError {
     /// The first bytes belong to no format that is read here.
-    #[error("the file starts with {found}, expected one of Radiance HDR (#?), OpenEXR, PNG, KTX2")]
+    #[error(
+        "the file starts with {found}, expected one of Radiance HDR (#?), OpenEXR, PNG, KTX1, KTX2, DDS, Babylon.js .env"
+    )]
     UnknownMagic {
         /// The first bytes, printable ones as text.
         found: String,

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use lumisphere_codec::exr::{self, SampleFormat};
-use lumisphere_codec::ktx2::{self, Faces, LevelTexels, Supercompression, TexelFormat, Texture};
+use lumisphere_codec::ktx2::{self, Supercompression};
+use lumisphere_codec::{Faces, LevelTexels, TexelFormat, Texture};
 use lumisphere_codec::{Limits, decode_picture, hdr, png};
 
 fn everything() -> Vec<Vec<u8>> {
@@ -17,7 +18,7 @@ fn everything() -> Vec<Vec<u8>> {
         exr::encode(96, 576, &texels, SampleFormat::Float, None).unwrap().bytes,
         png::encode_rgb8(96, 576, &texels.iter().flatten().map(|v| *v as u8).collect::<Vec<_>>()).unwrap(),
     ];
-    for format in TexelFormat::ALL.into_iter().filter(|f| f.is_rgb()) {
+    for format in TexelFormat::ALL.into_iter().filter(|f| f.is_rgb() && f.block_side() == 1) {
         for how in [Supercompression::None, Supercompression::Zstd(3)] {
             files.push(ktx2::encode(&texture, format, how, &[("a", "b")]).unwrap().bytes);
         }

@@ -4,7 +4,8 @@
 mod common;
 
 use lumisphere_codec::Limits;
-use lumisphere_codec::ktx2::{Faces, KtxTexture, LevelTexels, Supercompression, TexelFormat, Texture, decode, encode};
+use lumisphere_codec::ktx2::{Supercompression, decode, encode};
+use lumisphere_codec::{DecodedTexture, Faces, LevelTexels, TexelFormat, Texture};
 
 /// Where the length of the data format descriptor ends in the header; key/value data, which differ, come after it.
 const HEADER_TO_DESCRIPTOR: std::ops::Range<usize> = 0..56;
@@ -18,7 +19,7 @@ fn descriptor(file: &[u8]) -> &[u8] {
 }
 
 /// The same texture, written by us.
-fn rewritten(texture: &KtxTexture, how: Supercompression) -> Vec<u8> {
+fn rewritten(texture: &DecodedTexture, how: Supercompression) -> Vec<u8> {
     let rgb: Vec<Vec<[f32; 3]>> =
         texture.levels.iter().map(|l| l.iter().map(|t| [t[0], t[1], t[2]]).collect()).collect();
     let levels = match texture.format {

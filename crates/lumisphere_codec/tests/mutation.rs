@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use exr::prelude::*;
-use lumisphere_codec::ktx2::{self, Faces, LevelTexels, Supercompression, TexelFormat, Texture};
+use lumisphere_codec::ktx2::{self, Supercompression};
+use lumisphere_codec::{Faces, LevelTexels, TexelFormat, Texture};
 use lumisphere_codec::{Limits, decode_picture, hdr, png};
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::{RngCore, SeedableRng};

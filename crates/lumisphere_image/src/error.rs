@@ -1,6 +1,7 @@
 //! What can be wrong with an environment image.
 
-use lumisphere_sphere::{GridError, Projection};
+use crate::cube_layout::CubeLayout;
+use lumisphere_sphere::{AxisTurn, GridError, Projection};
 
 /// Errors of this crate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -60,5 +61,61 @@ pub enum ImageError {
     Illuminance {
         /// `∫ L_Y max(y, 0) dω` found.
         found: f64,
+    },
+    /// A turn that would need resampling.
+    #[error(
+        "a {projection:?} picture of width {width} cannot be turned by \"{turn}\" without resampling: expected {expected}"
+    )]
+    Turn {
+        /// The turn.
+        turn: AxisTurn,
+        /// Projection found.
+        projection: Projection,
+        /// Width in texels (of a face, for a cube).
+        width: usize,
+        /// What can be turned.
+        expected: &'static str,
+    },
+    /// A picture that does not divide into the cells of a layout.
+    #[error("a cube laid out as {layout:?} needs {expected}, found {width}x{height}")]
+    Layout {
+        /// The layout.
+        layout: CubeLayout,
+        /// The rule.
+        expected: &'static str,
+        /// Width in texels.
+        width: usize,
+        /// Height in texels.
+        height: usize,
+    },
+    /// One of six pictures that is not like the first, or no square.
+    #[error("picture {face} of the six faces must be {expected}x{expected}, found {width}x{height}")]
+    Face {
+        /// 0 to 5 for +X -X +Y -Y +Z -Z.
+        face: usize,
+        /// Side expected: the width of the first.
+        expected: usize,
+        /// Width in texels.
+        width: usize,
+        /// Height in texels.
+        height: usize,
+    },
+    /// Levels or a picture that make no atlas.
+    #[error("an atlas of {level_count} levels needs {expected}, found {width}x{height}")]
+    Atlas {
+        /// How many levels.
+        level_count: usize,
+        /// The rule.
+        expected: &'static str,
+        /// Width in texels of the picture or level at fault.
+        width: usize,
+        /// Height in texels.
+        height: usize,
+    },
+    /// A projection that an atlas cannot hold.
+    #[error("an atlas holds lat-long or octahedral maps, found {found:?}")]
+    AtlasProjection {
+        /// Projection found.
+        found: Projection,
     },
 }

@@ -4,11 +4,15 @@
 //! count as 0. To filter, apply a [`Window`](crate::Window) to the radiance first: band factors commute. Axes are the
 //! world's; an engine with other axes wants the coefficients rotated or reflected first.
 
+mod babylon_polynomial;
+
 use crate::coefficients::{Sh, ShRgb};
 use crate::quadratic::Quadratic;
 use crate::zonal::{clamped_cosine, convolve};
 use lumisphere_sphere::Vec3;
 use std::f64::consts::PI;
+
+pub use babylon_polynomial::BabylonPolynomial;
 
 /// Irradiance `E(n) = ∫ L(ω) max(n·ω, 0) dω` from radiance L, without 1/π, with as many bands
 /// (R. Ramamoorthi and P. Hanrahan, SIGGRAPH 2001, Eq. 9).

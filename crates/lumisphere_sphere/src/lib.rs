@@ -17,6 +17,7 @@
 //! # Ok::<(), GridError>(())
 //! ```
 
+mod axis_turn;
 pub mod cross;
 pub mod cube;
 pub mod disc;
@@ -31,6 +32,7 @@ pub mod triangle;
 pub mod vector;
 pub mod warp;
 
+pub use axis_turn::{AxisTurn, AxisTurnError};
 pub use grid::{Grid, GridError, Projection, TexelPosition, guess_projection};
 pub use rotation::{Frame, Rotation};
 pub use vector::Vec3;

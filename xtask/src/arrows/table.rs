@@ -36,6 +36,17 @@ pub(super) const TABLE: &[Row] = &[
     library("lumisphere_codec", &["lumisphere_sphere", "lumisphere_image"]),
     library("lumisphere_bake", &["lumisphere_sphere", "lumisphere_sh", "lumisphere_bsdf", "lumisphere_image"]),
     library(
+        "lumisphere_target",
+        &[
+            "lumisphere_sphere",
+            "lumisphere_sh",
+            "lumisphere_bsdf",
+            "lumisphere_image",
+            "lumisphere_codec",
+            "lumisphere_bake",
+        ],
+    ),
+    library(
         "lumisphere",
         &[
             "lumisphere_sphere",
@@ -44,6 +55,7 @@ pub(super) const TABLE: &[Row] = &[
             "lumisphere_image",
             "lumisphere_codec",
             "lumisphere_bake",
+            "lumisphere_target",
         ],
     ),
     Row { name: "lumisphere_testkit", role: Role::TestSupport, may_use: &["lumisphere_sphere", "lumisphere_image"] },

@@ -11,7 +11,7 @@ use canvas::Canvas;
 use label::{Align, Typeface};
 use lumisphere::bake::{BakedEnvironment, SpecularChain};
 use lumisphere::bsdf::DfgTable;
-use lumisphere::image::{Environment, Rgb, sample_cube};
+use lumisphere::image::{Environment, Rgb, sample_bilinear, sample_cube};
 use lumisphere::sphere::{Rotation, Vec3};
 use lumisphere_codec::Encoded;
 use panorama::Panorama;
@@ -101,8 +101,11 @@ enum Tile<'a> {
 }
 
 fn tiles(baked: &BakedEnvironment) -> Vec<Tile<'_>> {
-    let mirrors =
-        baked.specular.iter().flat_map(|chain| (0..chain.roughness.len()).map(move |lod| Tile::Mirror { chain, lod }));
+    let mirrors = baked
+        .chains
+        .first()
+        .into_iter()
+        .flat_map(|chain| (0..chain.roughness.len()).map(move |lod| Tile::Mirror { chain, lod }));
     let diffuse = baked.irradiance.iter().map(Tile::Diffuse);
     diffuse.chain(mirrors).chain(baked.dfg.iter().map(Tile::Dfg)).collect()
 }
@@ -116,11 +119,11 @@ impl Tile<'_> {
                 sphere::draw(size, 2, display, BACKGROUND, light)
             }
             Self::Mirror { chain, lod } => {
-                let level = &chain.levels.levels()[*lod];
+                let level = &chain.levels[*lod];
                 // The level's own texels are finer than pixels near the middle of the ball, by this much.
                 let fineness = 4 * level.grid().width() / (3 * size).max(1);
                 let samples = (fineness + 1).clamp(2, 4);
-                sphere::draw(size, samples, display, BACKGROUND, |n| sample_cube(level, sphere::reflected(n)))
+                sphere::draw(size, samples, display, BACKGROUND, |n| sample_bilinear(level, sphere::reflected(n)))
             }
             Self::Dfg(table) => draw_table(table, size),
         }
@@ -132,7 +135,7 @@ impl Tile<'_> {
             Self::Mirror { chain, lod } => {
                 let p = format!("{:.3}", chain.roughness[*lod].value());
                 let p = p.trim_end_matches('0').trim_end_matches('.');
-                (format!("p = {p}"), format!("{}²", chain.levels.levels()[*lod].grid().width()))
+                (format!("p = {p}"), format!("{}²", chain.levels[*lod].grid().width()))
             }
             Self::Dfg(_) => ("DFG".to_owned(), "n·v →  p ↓".to_owned()),
         }

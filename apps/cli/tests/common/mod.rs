@@ -55,8 +55,8 @@ pub fn data(test: &str) -> Option<PathBuf> {
     folder
 }
 
-pub const ALL_FILES: [&str; 7] =
-    ["bake.json", "dfg.ktx2", "irradiance.ktx2", "preview.png", "sh.json", "skybox.ktx2", "specular.ktx2"];
+pub const ALL_FILES: [&str; 8] =
+    ["USE.md", "bake.json", "dfg.ktx2", "irradiance.ktx2", "preview.png", "sh.json", "skybox.ktx2", "specular.ktx2"];
 /// Small enough to be quick in a debug build.
 pub const SMALL: [&str; 6] = ["--size", "32", "--irradiance-size", "8", "--dfg-size", "16"];
 

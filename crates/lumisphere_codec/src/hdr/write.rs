@@ -13,7 +13,7 @@ const SHORTEST_RUN: usize = 4;
 
 /// Writes `width * height` linear texels, top row first, as run-length RGBE.
 ///
-/// Mantissas are rounded to nearest, so a component is off by at most 1/510 of the texel's largest one and has no bias
+/// Mantissas are rounded to nearest, so a component is off by at most 1/255 of the texel's largest one and has no bias
 /// (`round_trip_has_no_bias`). Negative and NaN components become 0, components above [`MAX`](super::MAX) become
 /// `MAX`; both are counted. Texels whose largest component is below 2^-126 become black.
 ///

@@ -6,15 +6,14 @@
 //! A supercompressed file keeps `bytesPlane0`: KTX 2.0 first wanted 0 there, which KTX-Specification pull request 221
 //! removes and KTX-Software since 2025 warns of (its pull request 988).
 
-mod format;
-mod picture;
 mod read;
+#[cfg(feature = "uastc-hdr")]
+pub(crate) mod uastc_hdr;
+mod vk_format;
 mod write;
 
-pub use format::{Faces, TexelFormat};
-pub use picture::decode_picture;
-pub use read::{KtxTexture, decode};
-pub use write::{LevelTexels, Supercompression, Texture, encode};
+pub use read::decode;
+pub use write::{Supercompression, encode};
 
 #[cfg(test)]
 mod tests;

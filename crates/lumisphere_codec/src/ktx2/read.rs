@@ -1,37 +1,11 @@
 //! From a file to texels.
 
-use super::format::{Faces, TexelFormat, full_level_count, level_texels};
+use super::vk_format::{from_vk_format, vk_format};
 use crate::error::{CodecError, FileFormat::Ktx2};
 use crate::limits::Limits;
-use crate::pack;
+use crate::texture::{DecodedTexture, Faces, Shape, TexelFormat, section, unpack_images};
 use ktx2::{Header, KeyValueDataIterator, LevelIndex, ParseError, SupercompressionScheme};
-use rayon::prelude::*;
 use std::borrow::Cow;
-
-/// A decoded texture.
-#[derive(Debug, Clone, PartialEq)]
-pub struct KtxTexture {
-    /// The file's texel format.
-    pub format: TexelFormat,
-    /// Width of level 0 in texels (of a face, for a cube).
-    pub width: usize,
-    /// Height of level 0 in texels (of a face, for a cube).
-    pub height: usize,
-    /// One image or six.
-    pub faces: Faces,
-    /// Levels, largest first: rows from the first stored one, face after face. Channels that the format lacks are 0,
-    /// alpha 1. Values are as stored: NaN and infinities are kept.
-    pub levels: Vec<Vec<[f32; 4]>>,
-    /// Keys and values in file order, values without the NUL that ends text.
-    pub metadata: Vec<(String, Vec<u8>)>,
-}
-
-impl KtxTexture {
-    /// The value of a key as text.
-    pub fn text(&self, key: &str) -> Option<&str> {
-        self.metadata.iter().find(|(k, _)| k == key).and_then(|(_, v)| std::str::from_utf8(v).ok())
-    }
-}
 
 /// Decodes a 2D or cube texture in one of the [`TexelFormat`]s, plain or with Zstandard.
 ///
@@ -40,37 +14,34 @@ impl KtxTexture {
 /// # Errors
 /// [`CodecError::Unsupported`] for other formats, arrays, volumes and compressions; [`CodecError::TooLarge`] if all
 /// levels need more than `limits` allows at 16 bytes a texel; [`CodecError::Invalid`], [`CodecError::Damaged`].
-pub fn decode(bytes: &[u8], limits: &Limits) -> Result<KtxTexture, CodecError> {
+pub fn decode(bytes: &[u8], limits: &Limits) -> Result<DecodedTexture, CodecError> {
     let damaged = |error| CodecError::damaged(Ktx2, "the header", error);
     // The header comes first, so that what it asks for is named before anything that follows from it.
     let start = bytes.first_chunk().ok_or(ParseError::UnexpectedEnd).map_err(damaged)?;
     let header = Header::from_bytes(start).map_err(damaged)?;
-    let (format, faces, level_count) = check_header(&header)?;
-    let (width, height) = (header.pixel_width as usize, header.pixel_height as usize);
-    // The largest level and a third cover the chain; the sum below is exact and cannot overflow after this check.
-    limits.check(Ktx2, width as u64, height as u64 * faces.count() as u64, 16)?;
-    let texels: u64 = (0..level_count).map(|k| level_texels(width, height, faces, k) as u64).sum();
-    limits.check(Ktx2, texels, 1, 16)?;
+    let (format, shape) = check_header(&header)?;
+    shape.check(Ktx2, limits)?;
+    let Shape { width, height, faces, level_count } = shape;
     // The crate's own `Reader` is not used: it parses the descriptor, which is not needed here, and panics on some.
     let mut levels = Vec::with_capacity(level_count);
     for k in 0..level_count {
-        let size = level_texels(width, height, faces, k) * format.texel_bytes();
+        let size = format.level_bytes(width, height, faces, k);
         let index = level_index(bytes, k)?;
-        let stored = section(bytes, &format!("level {k}"), index.byte_offset, index.byte_length)?;
+        let stored = section(Ktx2, bytes, &format!("level {k}"), index.byte_offset, index.byte_length)?;
         let scheme = header.supercompression_scheme;
         let data = level_bytes(stored, index.uncompressed_byte_length, k, size, scheme)?;
-        levels.push(unpack_level(&data, format));
+        levels.push(unpack_images(Ktx2, &data, format, shape.side(k))?);
     }
     let (start, length) = (header.index.kvd_byte_offset, header.index.kvd_byte_length);
-    let metadata = KeyValueDataIterator::new(section(bytes, "the key/value data", start.into(), length.into())?)
+    let metadata = KeyValueDataIterator::new(section(Ktx2, bytes, "the key/value data", start.into(), length.into())?)
         .map(|(key, value)| (key.to_owned(), value.strip_suffix(b"\0").unwrap_or(value).to_vec()))
         .collect();
-    Ok(KtxTexture { format, width, height, faces, levels, metadata })
+    Ok(DecodedTexture { container: Ktx2, format, width, height, faces, levels, metadata })
 }
 
-fn check_header(header: &Header) -> Result<(TexelFormat, Faces, usize), CodecError> {
-    let format = header.format.and_then(TexelFormat::from_ktx).ok_or_else(|| {
-        let names: Vec<String> = TexelFormat::ALL.iter().map(|f| format!("{:?}", f.ktx())).collect();
+fn check_header(header: &Header) -> Result<(TexelFormat, Shape), CodecError> {
+    let format = header.format.and_then(from_vk_format).ok_or_else(|| {
+        let names: Vec<String> = TexelFormat::ALL.into_iter().filter_map(vk_format).map(|f| format!("{f:?}")).collect();
         let found = header.format.map_or("UNDEFINED".to_owned(), |f| format!("{f:?}"));
         CodecError::unsupported(Ktx2, format!("texel format {found}"), format!("one of {}", names.join(", ")))
     })?;
@@ -81,36 +52,16 @@ fn check_header(header: &Header) -> Result<(TexelFormat, Faces, usize), CodecErr
     }
     let faces = match header.face_count {
         1 => Faces::One,
-        6 if header.pixel_width == header.pixel_height => Faces::Cube,
-        6 => {
-            let found = format!("{} x {}", header.pixel_width, header.pixel_height);
-            return Err(CodecError::invalid(Ktx2, "the size of a cube face", found, "a square"));
-        }
+        6 => Faces::Cube,
         count => return Err(CodecError::invalid(Ktx2, "the face count", count, "1 or 6")),
     };
-    let full = full_level_count(header.pixel_width as usize, header.pixel_height as usize);
-    let level_count = header.level_count.max(1) as usize;
-    if level_count > full {
-        return Err(CodecError::invalid(Ktx2, "the level count", level_count, format!("at most {full}")));
-    }
-    Ok((format, faces, level_count))
-}
-
-/// The bytes of a section of the file.
-fn section<'a>(bytes: &'a [u8], what: &str, start: u64, length: u64) -> Result<&'a [u8], CodecError> {
-    let end = start.saturating_add(length);
-    let range = usize::try_from(start).ok().zip(usize::try_from(end).ok());
-    range.and_then(|(start, end)| bytes.get(start..end)).ok_or_else(|| CodecError::Truncated {
-        format: Ktx2,
-        what: what.to_owned(),
-        expected: end,
-        found: bytes.len() as u64,
-    })
+    let (width, height) = (header.pixel_width as usize, header.pixel_height as usize);
+    Ok((format, Shape { width, height, faces, level_count: header.level_count.max(1) as usize }))
 }
 
 fn level_index(bytes: &[u8], k: usize) -> Result<LevelIndex, CodecError> {
     let start = Header::LENGTH + k * LevelIndex::LENGTH;
-    let entry = section(bytes, "the level index", start as u64, LevelIndex::LENGTH as u64)?;
+    let entry = section(Ktx2, bytes, "the level index", start as u64, LevelIndex::LENGTH as u64)?;
     let entry = entry.first_chunk().ok_or(ParseError::UnexpectedEnd);
     Ok(LevelIndex::from_bytes(entry.map_err(|error| CodecError::damaged(Ktx2, "the level index", error))?))
 }
@@ -141,21 +92,5 @@ fn level_bytes(
             Ok(Cow::Owned(out))
         }
         Some(scheme) => Err(CodecError::unsupported(Ktx2, format!("supercompression {scheme:?}"), "none or Zstandard")),
-    }
-}
-
-fn unpack_level(data: &[u8], format: TexelFormat) -> Vec<[f32; 4]> {
-    let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
-    let float = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
-    let half = |b: &[u8]| pack::unpack_f16(u16::from_le_bytes([b[0], b[1]]));
-    let word = |b: &[u8]| u32::from_le_bytes([b[0], b[1], b[2], b[3]]);
-    let texels = data.par_chunks_exact(format.texel_bytes()).with_min_len(pack::CHUNK);
-    match format {
-        TexelFormat::Rgba32F => texels.map(|b| [0, 4, 8, 12].map(|i| float(&b[i..]))).collect(),
-        TexelFormat::Rgba16F => texels.map(|b| [0, 2, 4, 6].map(|i| half(&b[i..]))).collect(),
-        TexelFormat::Rg32F => texels.map(|b| [float(b), float(&b[4..]), 0.0, 1.0]).collect(),
-        TexelFormat::Rg16F => texels.map(|b| [half(b), half(&b[2..]), 0.0, 1.0]).collect(),
-        TexelFormat::Rgb9e5 => texels.map(|b| opaque(pack::unpack_rgb9e5(word(b)))).collect(),
-        TexelFormat::B10g11r11 => texels.map(|b| opaque(pack::unpack_r11g11b10(word(b)))).collect(),
     }
 }

@@ -1,7 +1,7 @@
 #![allow(clippy::unwrap_used)]
-use super::write::descriptor;
+use super::vk_format::descriptor;
 use super::*;
-use crate::Limits;
+use crate::{Faces, LevelTexels, Limits, TexelFormat, Texture, decode_picture};
 use lumisphere_sphere::Projection;
 
 /// The descriptors, word by word (Khronos Data Format Specification 1.3, basic descriptor block; `typeSize`: KTX 2.0).
@@ -21,6 +21,8 @@ fn expected(format: TexelFormat) -> (Vec<u32>, u32) {
     let (samples, bytes, type_size): (Vec<[u32; 4]>, u32, u32) = match format {
         TexelFormat::Rgba32F => (channels(32, &[0, 1, 2, 15]), 16, 4),
         TexelFormat::Rgba16F => (channels(16, &[0, 1, 2, 15]), 8, 2),
+        TexelFormat::Rgb32F => (channels(32, &[0, 1, 2]), 12, 4),
+        TexelFormat::Rgb16F => (channels(16, &[0, 1, 2]), 6, 2),
         TexelFormat::Rg32F => (channels(32, &[0, 1]), 8, 4),
         TexelFormat::Rg16F => (channels(16, &[0, 1]), 4, 2),
         // Mantissa of 9 bits with upper value 8448, exponent of 5 bits with bias 15 and upper value 31.
@@ -42,6 +44,7 @@ fn expected(format: TexelFormat) -> (Vec<u32>, u32) {
             4,
             4,
         ),
+        TexelFormat::Bc6hUfloat | TexelFormat::UastcHdr4x4 | TexelFormat::Rgbd8 => unreachable!("not a plain format"),
     };
     let size = 24 + 16 * samples.len() as u32;
     let mut words = vec![size + 4, 0, 2 | (size << 16), 0x0001_0101, 0, bytes, 0];
@@ -53,14 +56,32 @@ fn words(bytes: &[u8]) -> Vec<u32> {
     bytes.chunks_exact(4).map(|b| u32::from_le_bytes(b.try_into().unwrap())).collect()
 }
 
+/// BC6H, word by word: model 133, texel block of 4 x 4 x 1 x 1 (each less one), 16 bytes in plane 0; one sample of 128
+/// bits, channel 0 (colour) with the float qualifier and, being unsigned, lower value 0; upper value 1.0.
+#[test]
+fn the_descriptor_of_bc6h_is_that_of_the_specification() {
+    let (bytes, type_size) = descriptor(TexelFormat::Bc6hUfloat).unwrap();
+    let sample = [127 << 16 | 0x80 << 24, 0, 0, 0x3f80_0000];
+    let mut expected = vec![44, 0, 2 | 40 << 16, 0x0001_0185, 0x0000_0303, 16, 0];
+    expected.extend(sample);
+    assert_eq!(words(&bytes), expected);
+    // KTX 2.0: 1 for block-compressed formats.
+    assert_eq!(type_size, 1);
+}
+
 #[test]
 fn descriptors_are_those_of_the_specification() {
-    for format in TexelFormat::ALL {
+    for format in plain() {
         let (bytes, type_size) = descriptor(format).unwrap();
         let (expected_words, expected_type_size) = expected(format);
         assert_eq!(words(&bytes), expected_words, "{format:?}");
         assert_eq!(type_size, expected_type_size, "{format:?}");
     }
+}
+
+/// The formats without blocks.
+fn plain() -> impl Iterator<Item = TexelFormat> {
+    TexelFormat::ALL.into_iter().filter(|f| f.block_side() == 1)
 }
 
 /// Values that every format holds exactly.
@@ -79,7 +100,7 @@ fn cube_texture(levels: &[Vec<[f32; 3]>]) -> Texture<'_> {
 #[test]
 fn cubes_round_trip_in_every_rgb_format() {
     let levels = cube();
-    for format in TexelFormat::ALL.into_iter().filter(|f| f.is_rgb()) {
+    for format in plain().filter(|f| f.is_rgb()) {
         for compression in [Supercompression::None, Supercompression::Zstd(3)] {
             let file = encode(&cube_texture(&levels), format, compression, &[("b", "2"), ("a", "1")]).unwrap();
             assert_eq!(file, encode(&cube_texture(&levels), format, compression, &[("b", "2"), ("a", "1")]).unwrap());
@@ -115,7 +136,7 @@ fn two_channel_tables_round_trip() {
 #[test]
 fn levels_are_aligned_and_smallest_first() {
     let levels = cube();
-    for format in TexelFormat::ALL.into_iter().filter(|f| f.is_rgb()) {
+    for format in plain().filter(|f| f.is_rgb()) {
         let file = encode(&cube_texture(&levels), format, Supercompression::None, &[("odd", "x")]).unwrap().bytes;
         let entry = |k: usize| {
             let at = 80 + 24 * k;
@@ -124,8 +145,8 @@ fn levels_are_aligned_and_smallest_first() {
         };
         for k in 0..4 {
             let (offset, length, uncompressed) = entry(k);
-            assert_eq!(offset % format.texel_bytes().max(4), 0);
-            assert_eq!((length, uncompressed), (levels[k].len() * format.texel_bytes(), length));
+            assert_eq!((offset % 4, offset % format.block_bytes()), (0, 0));
+            assert_eq!((length, uncompressed), (levels[k].len() * format.block_bytes(), length));
             if k > 0 {
                 assert!(offset + length <= entry(k - 1).0);
             } else {

@@ -16,7 +16,6 @@ mod half_float;
 mod r11g11b10;
 mod rgb9e5;
 
-#[cfg(any(feature = "ktx2", feature = "exr"))]
 pub(crate) use half_float::f16_into;
 pub use half_float::{f16_slice, pack_f16, unpack_f16, unpack_f16_slice};
 pub use r11g11b10::{MAX_10, MAX_11, pack_r11g11b10, r11g11b10_slice, unpack_r11g11b10};
