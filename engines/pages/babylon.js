@@ -51,6 +51,9 @@ async function environment(files) {
   if (extension === '.glb') {
     await LoadAssetContainerAsync(url, scene);
     if (scene.environmentTexture === null) throw new Error('the asset brought no environment');
+    // The loader decodes RGBD into linear half floats and leaves the texture marked as gamma-encoded (9.28): without this
+    // line radiance L is drawn as L^2.2.
+    scene.environmentTexture.gammaSpace = false;
   } else {
     scene.environmentTexture = CubeTexture.CreateFromPrefilteredData(url, scene, extension);
   }

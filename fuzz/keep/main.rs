@@ -1,6 +1,7 @@
 //! `cargo run --example keep -- NAME FOLDER`: replaces the corpus of a reader by the smallest files of a folder.
 //!
-//! Seeds stay. Chunks of PNG files get the right check sums, which the fuzzer does not need and the reader does.
+//! Seeds stay. Chunks of PNG files, on their own or inside of others, get the right check sums, which the fuzzer does not
+//! need and the reader does.
 
 #[path = "../seeds/crc.rs"]
 mod crc;
@@ -32,7 +33,7 @@ fn main() -> std::io::Result<()> {
         if size > LARGEST {
             break;
         }
-        correct_chunks(&mut bytes);
+        (0..bytes.len()).for_each(|at| correct_chunks(&mut bytes[at..]));
         std::fs::write(corpus.join(path.file_name().expect("a file has a name")), bytes)?;
     }
     Ok(())
@@ -42,7 +43,7 @@ fn files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect()
 }
 
-/// Gives each whole chunk of a PNG file its check sum.
+/// Gives each whole chunk of a PNG file its check sum, if one starts here.
 fn correct_chunks(bytes: &mut [u8]) {
     if !bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
         return;

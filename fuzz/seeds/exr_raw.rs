@@ -141,6 +141,6 @@ fn sized(data: Vec<u8>) -> Vec<u8> {
 
 /// The samples of a row; 0x3c00 is 1 in half.
 fn row(channels: &[Channel], y: usize, width: usize) -> Vec<u8> {
-    let stored = channels.iter().filter(|(_, sampling)| y % *sampling as usize == 0);
+    let stored = channels.iter().filter(|(_, sampling)| y.is_multiple_of(*sampling as usize));
     stored.flat_map(|(_, s)| (0..width / *s as usize).flat_map(|x| (0x3c00 + 64 * x as u16).to_le_bytes())).collect()
 }

@@ -1,9 +1,9 @@
 //! KTX1.
 
 use super::Seeds;
-use super::textures::{patched, plain};
+use super::textures::{flat, patched, plain};
+use lumisphere_codec::TexelFormat;
 use lumisphere_codec::ktx1::encode;
-use lumisphere_codec::{CodecError, Encoded, TexelFormat, Texture};
 
 /// Offsets of header fields.
 const TYPE: usize = 16;
@@ -41,7 +41,7 @@ pub(super) fn hostile() -> Seeds {
     let seeds = [
         ("huge", patched(&plain, &[(WIDTH, u32::MAX), (HEIGHT, u32::MAX)])),
         ("huge-cube", patched(&plain, &[(WIDTH, u32::MAX), (HEIGHT, u32::MAX), (FACES, 6)])),
-        ("wide", patched(&plain, &[(WIDTH, 1 << 18), (HEIGHT, 1)])),
+        ("wide", patched(&plain, &[(WIDTH, 1 << 18), (HEIGHT, 1), (LEVELS, 1)])),
         ("many-levels", patched(&plain, &[(LEVELS, u32::MAX)])),
         ("array", patched(&plain, &[(ARRAY, u32::MAX)])),
         ("seven-faces", patched(&plain, &[(FACES, 7)])),
@@ -54,15 +54,8 @@ pub(super) fn hostile() -> Seeds {
     seeds.map(|(name, bytes)| (name.to_owned(), bytes)).into()
 }
 
-/// A flat texture of 3 levels.
 fn file(format: TexelFormat, texts: &[(&str, &str)]) -> Vec<u8> {
-    let write = |texture: &Texture<'_>, f| -> Result<Encoded, CodecError> {
-        match f == format {
-            true => encode(texture, f, texts),
-            false => Err(CodecError::UnknownMagic { found: String::new() }),
-        }
-    };
-    plain(write).pop().expect("a format of KTX1").1
+    flat(format, |texture| encode(texture, format, texts)).expect("a format of KTX1").bytes
 }
 
 /// The file with its fields, and its texels in units of `unit` bytes, in the other order.

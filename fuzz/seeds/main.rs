@@ -3,10 +3,15 @@
 //! `cargo run --example seeds` fills `corpus/<reader>/` and `regressions/<reader>/`.
 
 mod crc;
+mod dds;
+mod env;
 mod exr;
 mod exr_raw;
 mod hdr;
+mod ktx1;
+mod ktx2;
 mod png;
+mod textures;
 
 use std::path::Path;
 
@@ -18,6 +23,10 @@ fn main() -> std::io::Result<()> {
         ("hdr", hdr::seeds(), hdr::hostile()),
         ("exr", exr::seeds(), exr_raw::hostile()),
         ("png", png::seeds(), png::hostile()),
+        ("ktx1", ktx1::seeds(), ktx1::hostile()),
+        ("ktx2", ktx2::seeds(), ktx2::hostile()),
+        ("dds", dds::seeds(), dds::hostile()),
+        ("env", env::seeds(), env::hostile()),
     ];
     for (reader, seeds, hostile) in readers {
         write(&Path::new("corpus").join(reader), "seed-", &seeds)?;

@@ -7,13 +7,22 @@ use lumisphere_codec::{CodecError, Encoded, Faces, LevelTexels, TexelFormat, Tex
 pub(super) fn plain(write: impl Fn(&Texture<'_>, TexelFormat) -> Result<Encoded, CodecError>) -> Seeds {
     let mut seeds = Vec::new();
     for format in TexelFormat::ALL {
-        for (name, width, height, faces, count) in [("cube", 2, 2, Faces::Cube, 2), ("flat", 5, 3, Faces::One, 3)] {
-            if let Ok(file) = with_levels((width, height), faces, count, format, |t| write(t, format)) {
-                seeds.push((format!("{format:?}-{name}").to_lowercase(), file.bytes));
-            }
+        for (name, file) in [("cube", cube(format, |t| write(t, format))), ("flat", flat(format, |t| write(t, format)))]
+        {
+            seeds.extend(file.ok().map(|f| (format!("{format:?}-{name}").to_lowercase(), f.bytes)));
         }
     }
     seeds
+}
+
+/// 2 x 2 with two levels.
+fn cube<T>(format: TexelFormat, write: impl FnOnce(&Texture<'_>) -> T) -> T {
+    with_levels((2, 2), Faces::Cube, 2, format, write)
+}
+
+/// 5 x 3 with three levels.
+pub(super) fn flat<T>(format: TexelFormat, write: impl FnOnce(&Texture<'_>) -> T) -> T {
+    with_levels((5, 3), Faces::One, 3, format, write)
 }
 
 fn with_levels<T>(

@@ -78,6 +78,8 @@ choice! {
         Unreal = RoughnessCurve::Unreal,
         /// lod = 0.8 log2(alpha size)
         Babylon = RoughnessCurve::Babylon,
+        /// lod = (n-1) ln(1 + 10 p) / ln 11, for a shader of your own
+        Logarithmic = RoughnessCurve::Logarithmic,
     }
 }
 

@@ -185,6 +185,8 @@ pub(crate) struct SettingsRecord {
     pub panorama_turn: String,
     pub size: usize,
     pub level_count: usize,
+    /// Of all chains of the bake, those for other targets among them: small pictures are cut the finer for it.
+    pub sharpest_alpha: Option<f64>,
     pub skybox_size: usize,
     pub irradiance_size: usize,
     pub dfg_size: usize,
@@ -216,6 +218,7 @@ impl SettingsRecord {
             panorama_turn: target.panorama_turn.to_string(),
             size: chain.size,
             level_count: chain.levels(),
+            sharpest_alpha: sharpest_alpha(settings),
             skybox_size: settings.skybox_size.unwrap_or(chain.size),
             irradiance_size: args.sizes.irradiance_size,
             dfg_size: args.sizes.dfg_size,
@@ -266,6 +269,12 @@ impl SettingsRecord {
             outputs,
         }
     }
+}
+
+/// The smallest α beyond the mirrors.
+fn sharpest_alpha(settings: &BakeSettings) -> Option<f64> {
+    let roughness = settings.chains.iter().flat_map(ChainSettings::roughness);
+    roughness.map(|p| p.to_alpha().value()).filter(|a| *a > 0.0).reduce(f64::min)
 }
 
 /// One level of the chain.
@@ -335,11 +344,6 @@ impl From<Content> for Holds {
 }
 
 impl Record {
-    /// The file that holds this, if one does.
-    pub(crate) fn file_that(&self, holds: impl Fn(Holds) -> bool) -> Option<&str> {
-        self.files.iter().find(|(_, file)| holds(file.holds)).map(|(name, _)| name.as_str())
-    }
-
     /// Reads the record of a bake.
     pub(crate) fn read(directory: &Path) -> Result<Self> {
         let path = directory.join(FILE);

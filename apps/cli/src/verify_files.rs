@@ -155,9 +155,9 @@ fn stem(name: &str) -> &str {
     name.rsplit_once('.').map_or(name, |(stem, _)| stem)
 }
 
-/// The number at the end of a level's name, "specular_10.exr", so that 10 comes after 9.
+/// The number at the end of a level's name, "specular_level10.exr", so that 10 comes after 9.
 fn level_of_name(name: &str) -> usize {
-    stem(name).rsplit_once('_').and_then(|(_, number)| number.parse().ok()).unwrap_or(0)
+    stem(name).rsplit_once("_level").and_then(|(_, number)| number.parse().ok()).unwrap_or(0)
 }
 
 /// Why a file is not read back.
@@ -232,15 +232,15 @@ mod tests {
 
     #[test]
     fn levels_are_in_the_order_of_their_numbers() {
-        assert!(level_of_name("specular_9.exr") < level_of_name("specular_10.exr"));
+        assert!(level_of_name("specular_level9.exr") < level_of_name("specular_level10.exr"));
         assert_eq!(level_of_name("specular.ktx2"), 0);
     }
 
     #[test]
     fn faces_and_models_are_not_read_back() {
-        assert!(unreadable("specular_0_px.exr", 12).is_some());
+        assert!(unreadable("specular_level0_px.exr", 12).is_some());
         assert!(unreadable("environment.glb", 1).is_some());
-        assert!(unreadable("specular_0.exr", 6).is_none());
+        assert!(unreadable("specular_level0.exr", 6).is_none());
         assert!(unreadable("specular.ktx2", 1).is_none());
     }
 }

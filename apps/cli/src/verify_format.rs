@@ -29,9 +29,9 @@ pub(crate) enum FormatError {
     Stated,
 }
 
-/// Relative RMS that is allowed to blocks which this build cannot write, about twice what Intel's encoder leaves of BC6H
-/// levels.
-pub(crate) const STATED_BLOCK_ERROR: f64 = 0.02;
+/// Relative RMS that is allowed to blocks which this build cannot write. Intel's encoder leaves 1.3 % of the 128² chain of
+/// `builtin:studio` in BC6H (`lumisphere formats --size 128`).
+pub(crate) const STATED_BLOCK_ERROR: f64 = 0.03;
 
 impl StoredTexels {
     /// What storing makes of a texel, where texels are stored by themselves; other formats leave it as it is.

@@ -54,7 +54,7 @@ pub(crate) fn measure(
         .environment;
     let outputs = Outputs { irradiance: false, skybox: false, dfg: false };
     let mut settings = record.settings.bake_settings(&record.levels, outputs);
-    settings.chains = asked_chain(&record).into_iter().chain(beside(directory, &record)).collect();
+    settings.chains = asked_chain(&record).into_iter().chain(sharper(&record)).collect();
     settings.validate().context("the settings of bake.json")?;
     let truth = Truth { environment: &environment, settings, texels: args.texels, progress };
     let mut report = Report { target: Some(record.settings.target.clone()), ..Report::default() };
@@ -68,21 +68,13 @@ pub(crate) fn measure(
     Ok(report)
 }
 
-/// Chains for other targets in the folders beside, of the same bake: how finely the picture was cut follows from the
-/// sharpest lobe of all.
-fn beside(directory: &Path, record: &Record) -> Vec<ChainSettings> {
-    let same = |other: &Record| {
-        // Steps before the writing were measured once for all targets: to the nanosecond, they name the bake.
-        let steps = |r: &Record| r.timings.iter().take_while(|(name, _)| name != "write").cloned().collect::<Vec<_>>();
-        other.input.environment == record.input.environment && steps(other) == steps(record)
-    };
-    // "." has no parent by its name alone.
-    let Some(parent) = directory.canonicalize().ok().and_then(|d| d.parent().map(Path::to_owned)) else {
-        return Vec::new();
-    };
-    let entries = std::fs::read_dir(parent).into_iter().flatten().flatten();
-    let records = entries.filter_map(|entry| Record::read(&entry.path()).ok());
-    records.filter(same).filter_map(|r| asked_chain(&r)).collect()
+/// A chain that stands for the sharpest lobe of other targets of the same bake: how finely the picture was cut follows
+/// from it.
+fn sharper(record: &Record) -> Option<ChainSettings> {
+    let own = record.levels.iter().map(|l| l.alpha).filter(|a| *a > 0.0).fold(f64::INFINITY, f64::min);
+    let sharpest = record.settings.sharpest_alpha.filter(|a| *a < own)?;
+    let curve = RoughnessCurve::Levels(vec![0.0, sharpest.sqrt()]);
+    Some(ChainSettings { curve, ..ChainSettings::default() })
 }
 
 /// The chain of the record, if one was made.
@@ -95,7 +87,7 @@ fn asked_chain(record: &Record) -> Option<ChainSettings> {
     Some(ChainSettings { curve, ..listed })
 }
 
-/// Listed roughness has to rise; curves that repeat p = 1 are only known by name.
+/// What lies between levels, for which fitted ones are made, is known by the curve's name.
 fn named_curve(word: &str) -> Option<RoughnessCurve> {
     Some(match word {
         "linear" => RoughnessCurve::Linear,
@@ -103,6 +95,7 @@ fn named_curve(word: &str) -> Option<RoughnessCurve> {
         "unity" => RoughnessCurve::Unity,
         "unreal" => RoughnessCurve::Unreal,
         "babylon" => RoughnessCurve::Babylon,
+        "logarithmic" => RoughnessCurve::Logarithmic,
         "gltflights" => RoughnessCurve::GltfLights,
         _ => return None,
     })

@@ -104,12 +104,12 @@ fn every_arrangement_and_every_form_of_the_table_is_written() {
     for (arrange, first) in [
         ("lat-long", "specular.exr"),
         ("octahedral", "specular.exr"),
-        ("strip", "specular_0.exr"),
-        ("column", "specular_2.exr"),
-        ("horizontal-cross", "specular_0.exr"),
-        ("vertical-cross", "specular_1.exr"),
-        ("faces", "specular_0_px.exr"),
-        ("faces-inside", "specular_1_nz.exr"),
+        ("strip", "specular_level0.exr"),
+        ("column", "specular_level2.exr"),
+        ("horizontal-cross", "specular_level0.exr"),
+        ("vertical-cross", "specular_level1.exr"),
+        ("faces", "specular_level0_px.exr"),
+        ("faces-inside", "specular_level1_nz.exr"),
     ] {
         let only = ["--only", "specular,skybox"];
         bake(folder.path(), &[&[AXES, "-o", arrange, "--container", "exr", "--arrange", arrange][..], &only].concat());
@@ -217,4 +217,22 @@ fn a_model_carries_its_light() {
     let asset = json(std::str::from_utf8(&bytes[20..20 + length]).unwrap());
     assert!(asset["meshes"].as_array().is_some_and(|m| !m.is_empty()));
     assert!(asset["extensions"]["EXT_lights_image_based"]["lights"][0]["specularImages"].is_array());
+}
+
+#[test]
+fn fitted_levels_are_what_verify_expects_of_them() {
+    let folder = tempdir().unwrap();
+    let environment = "builtin:studio?height=256";
+    bake(
+        folder.path(),
+        &[environment, "-t", "filament", "--fit", "--format", "rgba32f", "--only", "specular", "-o", "out"],
+    );
+    let verify = ["verify", "out", "--env", environment, "--texels", "24", "--json"];
+    let report = json(&succeed(folder.path(), &verify));
+    assert_eq!(report["passed"], true, "{report}");
+    // Negative control: against exact lobes they are as far off as the fit moved them.
+    let path = folder.path().join("out/bake.json");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replace("\"fit\": true", "\"fit\": false")).unwrap();
+    assert_eq!(run(folder.path(), &verify).status.code(), Some(1));
 }

@@ -21,6 +21,9 @@ pub enum RoughnessCurve {
     /// lod = (n-1) log2((α + 0.0005) size) / log2(size): `EXT_lights_image_based` as Babylon.js 9 reads it, whose scale
     /// follows from the number of levels.
     GltfLights,
+    /// lod = (n-1) ln(1 + 10 p) / ln 11, for shaders that are free to choose: of the closed forms tried, the one between whose
+    /// levels, from nine on, linear interpolation misses least (`cargo run --release -p lumisphere_bake --example fit_table`).
+    Logarithmic,
     /// p of each level: as many as the chain has levels, the first 0, none below the one before, none above 1. Between
     /// them p is linear in lod.
     Levels(Vec<f64>),
@@ -30,6 +33,9 @@ pub enum RoughnessCurve {
 const BABYLON_SCALE: f64 = 0.8;
 /// What Babylon.js adds to α before it asks for a level (`MINIMUMVARIANCE`).
 const BABYLON_ALPHA: f64 = 0.0005;
+
+/// 1/c of ln(1 + p/c).
+const LOGARITHMIC: f64 = 10.0;
 
 impl RoughnessCurve {
     /// p of a level of a chain of `level_count` levels whose level 0 has faces of `size` texels; 1 for a chain of one level
@@ -50,6 +56,7 @@ impl RoughnessCurve {
             // The last one is read for every α from 0.9995 on.
             Self::GltfLights if lod_f >= last => 1.0,
             Self::GltfLights => octaves(lod_f * log2(size) / last, size),
+            Self::Logarithmic => (lod_f / last * LOGARITHMIC.ln_1p()).exp_m1() / LOGARITHMIC,
             Self::Levels(levels) => levels.get(lod).or(levels.last()).copied().unwrap_or(1.0),
         })
     }
@@ -66,6 +73,7 @@ impl RoughnessCurve {
             Self::Unreal => last - 1.0 + 1.2 * p.log2(),
             Self::Babylon => BABYLON_SCALE * octaves_of(p, size),
             Self::GltfLights => last * octaves_of(p, size) / log2(size).max(1.0),
+            Self::Logarithmic => last * (LOGARITHMIC * p).ln_1p() / LOGARITHMIC.ln_1p(),
             Self::Levels(levels) => piecewise(levels, p),
         };
         lod.clamp(0.0, last)
@@ -77,7 +85,7 @@ impl RoughnessCurve {
             Self::Unity => Some(7),
             Self::Babylon => Some(size.max(1).ilog2() as usize + 1),
             Self::Levels(levels) => Some(levels.len()),
-            Self::Linear | Self::Quadratic | Self::Unreal | Self::GltfLights => None,
+            Self::Linear | Self::Quadratic | Self::Unreal | Self::GltfLights | Self::Logarithmic => None,
         }
     }
 }
@@ -122,10 +130,10 @@ mod tests {
 
     const SIZE: usize = 256;
 
-    fn curves(n: usize) -> [RoughnessCurve; 7] {
-        use RoughnessCurve::{Babylon, GltfLights, Levels, Linear, Quadratic, Unity, Unreal};
+    fn curves(n: usize) -> [RoughnessCurve; 8] {
+        use RoughnessCurve::{Babylon, GltfLights, Levels, Linear, Logarithmic, Quadratic, Unity, Unreal};
         let rising = (0..n).map(|i| (i as f64 / (n - 1) as f64).powf(1.3)).collect();
-        [Linear, Quadratic, Unity, Unreal, Babylon, GltfLights, Levels(rising)]
+        [Linear, Quadratic, Unity, Unreal, Babylon, GltfLights, Logarithmic, Levels(rising)]
     }
 
     #[test]
@@ -198,6 +206,6 @@ mod tests {
     #[test]
     fn curves_with_a_length_of_their_own_say_so() {
         let own: Vec<_> = curves(5).iter().map(|curve| curve.level_count(SIZE)).collect();
-        assert_eq!(own, [None, None, Some(7), None, Some(9), None, Some(5)]);
+        assert_eq!(own, [None, None, Some(7), None, Some(9), None, None, Some(5)]);
     }
 }

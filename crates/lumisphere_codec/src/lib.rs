@@ -8,10 +8,16 @@
 //! |---|---|---|---|
 //! | `hdr` | `hdr` | Radiance RGBE and XYZE, every scan line coding and axis order | run-length RGBE, rounded |
 //! | `exr` | `exr` | flat OpenEXR, every compression but HTJ2K, luminance/chroma, environment maps | half or float, ZIP |
-//! | `png` | `png` | 8 and 16 bit, decoded to linear | 8-bit RGB |
-//! | `ktx2` | `ktx2`, `zstd` | 2D and cube textures of the HDR formats | the same |
+//! | `png` | `png` | 8 and 16 bit, decoded to linear | 8 and 16 bit |
+//! | `ktx1` | `ktx1` | 2D and cube textures, plain texels, either byte order | the same, little-endian |
+//! | `ktx2` | `ktx2`, `zstd` | 2D and cube textures, plain texels and blocks | the same |
+//! | `dds` | `dds` | 2D and cube textures with the DX10 header or the legacy one | the same |
+//! | `env` | `env` | Babylon.js environments, versions 1 and 2, PNG or WebP | version 2, PNG |
 //!
-//! [`pack`] holds the texel quantisers that the KTX2 writer uses, for callers with containers of their own.
+//! BC6H is read with the feature `bc6h` and written with `bc6h-encode`, UASTC HDR 4x4 with `uastc-hdr` and
+//! `uastc-hdr-encode`. [`pack`] holds the texel quantisers, for callers with containers of their own.
+//!
+//! What each texel format costs and misses: `lumisphere formats`.
 
 #[cfg(any(feature = "hdr", feature = "exr"))]
 mod color;

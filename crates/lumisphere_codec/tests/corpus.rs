@@ -6,7 +6,7 @@
 
 #[allow(dead_code)]
 mod common;
-use lumisphere_codec::{CodecError, Limits, exr, hdr, png};
+use lumisphere_codec::{CodecError, DecodedTexture, Limits, dds, env, exr, hdr, ktx1, ktx2, png};
 use std::path::{Path, PathBuf};
 
 /// That of the targets.
@@ -49,4 +49,29 @@ fn exr() {
 #[test]
 fn png() {
     replay("png", |bytes| png::decode(bytes, &LIMITS).map(|p| p.texels.len()));
+}
+
+/// Texels of all levels.
+fn texel_count(texture: DecodedTexture) -> usize {
+    texture.levels.iter().map(Vec::len).sum()
+}
+
+#[test]
+fn ktx1() {
+    replay("ktx1", |bytes| ktx1::decode(bytes, &LIMITS).map(texel_count));
+}
+
+#[test]
+fn ktx2() {
+    replay("ktx2", |bytes| ktx2::decode(bytes, &LIMITS).map(texel_count));
+}
+
+#[test]
+fn dds() {
+    replay("dds", |bytes| dds::decode(bytes, &LIMITS).map(texel_count));
+}
+
+#[test]
+fn env() {
+    replay("env", |bytes| env::decode(bytes, &LIMITS).map(|file| texel_count(file.texture)));
 }

@@ -18,7 +18,11 @@ fn everything() -> Vec<Vec<u8>> {
         exr::encode(96, 576, &texels, SampleFormat::Float, None).unwrap().bytes,
         png::encode_rgb8(96, 576, &texels.iter().flatten().map(|v| *v as u8).collect::<Vec<_>>()).unwrap(),
     ];
-    for format in TexelFormat::ALL.into_iter().filter(|f| f.is_rgb() && f.block_side() == 1) {
+    let written = |f: &TexelFormat| {
+        let bc6h = cfg!(feature = "bc6h-encode") && *f == TexelFormat::Bc6hUfloat;
+        f.is_rgb() && (f.block_side() == 1 || bc6h)
+    };
+    for format in TexelFormat::ALL.into_iter().filter(written) {
         for how in [Supercompression::None, Supercompression::Zstd(3)] {
             files.push(ktx2::encode(&texture, format, how, &[("a", "b")]).unwrap().bytes);
         }

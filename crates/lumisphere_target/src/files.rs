@@ -15,9 +15,11 @@ use lumisphere_codec::exr::SampleFormat;
 use lumisphere_codec::ktx2::Supercompression;
 use lumisphere_codec::png::Samples;
 use lumisphere_codec::{Encoded, Faces, LevelTexels, TexelFormat, Texture, dds, env, exr, hdr, ktx1, ktx2, png};
-use lumisphere_image::{CubeLayout, Environment, FaceSide, Picture, atlas, faces_of, lay_flat};
+use lumisphere_image::{
+    CubeLayout, Environment, FaceSide, ImageError, Picture, atlas, faces_of, lay_flat, sample_cube,
+};
 use lumisphere_sh::packed::BabylonPolynomial;
-use lumisphere_sphere::Projection;
+use lumisphere_sphere::{Grid, Projection};
 use rayon::prelude::*;
 use std::borrow::Cow;
 
@@ -287,7 +289,8 @@ impl Job<'_> {
         }
     }
 
-    /// Cubes baked beside an atlas (irradiance, skybox) are resampled to its layout; the chain is baked in it.
+    /// The chain is baked in the layout of its atlas, and its level 0 is the skybox in it. Irradiance is smooth enough to be
+    /// read from its cube.
     fn atlas(
         &self,
         file: FlatFile,
@@ -295,15 +298,21 @@ impl Job<'_> {
         levels: &[Environment],
     ) -> Result<Vec<TargetFile>, TargetError> {
         let projection = if layout == FlatLayout::Octahedral { Projection::Octahedral } else { Projection::LatLong };
-        if let [one] = levels {
-            let laid = in_projection(one, projection)?;
-            return Ok(vec![self.environment(file, &laid)?]);
+        let alike = |level: &&Environment| level.grid().projection() == projection;
+        match (self.plan.content, levels) {
+            (Content::Skybox, [cube]) => {
+                let mirror = self.lighting.chain.as_ref().and_then(|chain| chain.levels.first()).filter(alike);
+                let missing = "a chain in the layout of the skybox";
+                let mirror = mirror.or(Some(cube).filter(alike)).ok_or_else(|| self.missing(missing))?;
+                Ok(vec![self.environment(file, mirror)?])
+            }
+            (_, [cube]) => Ok(vec![self.environment(file, &smooth_in_projection(cube, projection)?)?]),
+            _ if levels.iter().all(|level| alike(&level)) => {
+                let picture = atlas(levels, ATLAS_BORDER)?.picture;
+                Ok(vec![self.picture(file, &self.plan.stem, &picture)?])
+            }
+            _ => Err(self.combination("levels of another layout", "a chain baked in the layout of its atlas")),
         }
-        if levels.iter().any(|level| level.grid().projection() != projection) {
-            return Err(self.combination("levels of another layout", "a chain baked in the layout of its atlas"));
-        }
-        let picture = atlas(levels, ATLAS_BORDER)?.picture;
-        Ok(vec![self.picture(file, &self.plan.stem, &picture)?])
     }
 
     fn crosses(
@@ -331,7 +340,7 @@ impl Job<'_> {
     }
 
     fn level_stem(&self, count: usize, lod: usize) -> String {
-        if count == 1 { self.plan.stem.clone() } else { format!("{}_{lod}", self.plan.stem) }
+        if count == 1 { self.plan.stem.clone() } else { format!("{}_level{lod}", self.plan.stem) }
     }
 
     fn environment(&self, file: FlatFile, environment: &Environment) -> Result<TargetFile, TargetError> {
@@ -370,14 +379,15 @@ impl Job<'_> {
 /// What OpenGL's face targets are called, shortly.
 const FACE_NAMES: [&str; 6] = ["px", "nx", "py", "ny", "pz", "nz"];
 
-/// A cube of one level in another layout of the density that the baker's chains have.
-fn in_projection(environment: &Environment, projection: Projection) -> Result<Cow<'_, Environment>, TargetError> {
-    let size = environment.grid().width();
-    let grid = match projection {
-        p if environment.grid().projection() == p => return Ok(Cow::Borrowed(environment)),
-        Projection::Octahedral => lumisphere_sphere::Grid::new(projection, 2 * size, 2 * size),
-        _ => lumisphere_sphere::Grid::new(Projection::LatLong, 4 * size, 2 * size),
+/// A smooth cube read at the texels of another layout, of the density that the baker's chains have.
+fn smooth_in_projection(cube: &Environment, projection: Projection) -> Result<Environment, TargetError> {
+    let size = cube.grid().width();
+    let (width, height) =
+        if projection == Projection::Octahedral { (2 * size, 2 * size) } else { (4 * size, 2 * size) };
+    let grid = Grid::new(projection, width, height).map_err(ImageError::from)?;
+    let texel = |i: usize| {
+        let direction = grid.texel_direction(0, i % width, i / width).unwrap_or([0.0, 1.0, 0.0]);
+        sample_cube(cube, direction)
     };
-    let grid = grid.map_err(lumisphere_image::ImageError::from)?;
-    Ok(Cow::Owned(lumisphere_image::resample(environment, grid, &lumisphere_sphere::Rotation::IDENTITY)))
+    Ok(Environment::new(grid, (0..width * height).map(texel).collect())?)
 }

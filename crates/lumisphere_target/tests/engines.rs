@@ -68,9 +68,10 @@ fn unity(p: f64, _: usize, _: usize) -> f64 {
     p * (1.7 - 0.7 * p) * 6.0
 }
 
+/// `ComputeReflectionCaptureMipFromRoughness`, whose last level is n - 1.
 fn unreal(p: f64, n: usize, _: usize) -> f64 {
-    let from_1x1 = 1.0 - 1.2 * p.max(0.001).log2();
-    (n - 1) as f64 - 1.0 - from_1x1 + 1.0
+    let from_roughest = 1.0 - 1.2 * p.max(0.001).log2();
+    (n - 1) as f64 - from_roughest
 }
 
 const READERS: [Reader; 9] = [
@@ -240,6 +241,8 @@ fn unity_shades_with_its_seven_vectors() {
     assert!(error < ORDER_2, "{error}");
 }
 
+/// One direction for another.
+type Map = fn(Vec3) -> Vec3;
 /// (u, v) of an imported direction, v = 0 at the top.
 type LatLong = fn(Vec3) -> [f64; 2];
 
@@ -251,8 +254,7 @@ fn panoramas_lie_as_each_engine_looks_them_up() {
     let unreal: LatLong = |[x, y, z]| [(1.0 + x.atan2(-y) / PI) / 2.0, z.acos() / PI];
     let godot: LatLong = |[x, y, z]| [(x.atan2(-z) / (2.0 * PI)).rem_euclid(1.0), y.acos() / PI];
     let light = Light::new();
-    let engines: [(&str, fn(Vec3) -> Vec3, LatLong); 3] =
-        [("three", same, three), ("unreal", z_up, unreal), ("godot", same, godot)];
+    let engines: [(&str, Map, LatLong); 3] = [("three", same, three), ("unreal", z_up, unreal), ("godot", same, godot)];
     for (name, import, lookup) in engines {
         let (target, files) = light.baked(name);
         let file = files.iter().find(|f| target.files[f.plan].content == Content::Panorama).unwrap();

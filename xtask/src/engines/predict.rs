@@ -88,11 +88,11 @@ impl Engine {
         lerp(specular, diffuse, share)
     }
 
-    /// The largest radiance that its files hold: RGBD ends at 255.
-    fn brightest(self) -> f32 {
+    /// The largest value that it draws: Babylon.js ends at 30 where post-processing follows (`pbrBlockImageProcessing`).
+    fn brightest(self) -> f64 {
         match self {
-            Self::Babylon => 255.0,
-            Self::Three | Self::Filament => f32::INFINITY,
+            Self::Babylon => 30.0,
+            Self::Three | Self::Filament => f64::INFINITY,
         }
     }
 
@@ -128,8 +128,7 @@ impl<'a> Predictor<'a> {
             Material::White => (1.0, true),
         };
         let p = self.engine.shaded_roughness(stated, spread);
-        let mut filtered = self.light.filtered(p)?;
-        filtered.texels_mut().iter_mut().flatten().for_each(|v| *v = v.min(self.engine.brightest()));
+        let filtered = self.light.filtered(p)?;
         Ok(Sphere {
             engine: self.engine,
             form_factor: &self.form_factor,
@@ -157,11 +156,12 @@ impl Sphere<'_> {
         let specular = look_up(&self.filtered, turn.apply(self.engine.lookup(ray, self.p)));
         let diffuse = look_up(self.form_factor, turn.apply(ray.normal));
         let terms = albedo_at(&self.albedo, ray.n_dot_v);
-        if self.is_white {
+        let radiance = if self.is_white {
             self.engine.white(&terms, specular, diffuse)
         } else {
             self.engine.metal(self.p, terms.albedo(1.0), specular, diffuse)
-        }
+        };
+        radiance.map(|v| v.min(self.engine.brightest()))
     }
 }
 

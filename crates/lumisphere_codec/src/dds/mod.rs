@@ -17,9 +17,8 @@
 //!
 //! Babylon.js loads `Rgba16F` and `Rgba32F` cubes with either header, three.js `Bc6hUfloat` with the DX10 one.
 //!
-//! The headers are read and written here and not by the crate `ddsfile`: that one copies the texels once more, refuses
-//! headers that are common and harmless, and does not hold the data against the size that the header declares. The tests
-//! use it as a second opinion on what is written here.
+//! The headers are read and written here and not by the crate `ddsfile`: that one copies the texels once more and does not
+//! hold the data against the size that the header declares. The tests use it as a second opinion on what is written here.
 
 mod header;
 mod read;

@@ -30,8 +30,8 @@ const DEFAULT_LOD_GENERATION_SCALE: f64 = 0.8;
 pub struct EnvFile {
     /// The cube with all levels, linear radiance; `metadata` holds `version` and `imageType`.
     pub texture: DecodedTexture,
-    /// The colours x, y, z, xx, yy, zz, yz, zx, xy that, times these products of a normal's components, add to the form
-    /// factor (irradiance over π), in the frame that the cube is fetched in.
+    /// The colours x, y, z, xx, yy, zz, yz, zx, xy of Babylon.js's `SphericalPolynomial`, in the frame that the cube is fetched
+    /// in. They are not yet irradiance: `lumisphere_sh::packed::BabylonPolynomial` says what is made of them.
     pub spherical_polynomial: Option<[[f64; 3]; 9]>,
     /// Factor from octaves of roughness to levels; 0.8 if the file has none.
     pub lod_generation_scale: f64,
