@@ -235,7 +235,9 @@ impl<'a> EnvironmentBaker<'a> {
                 bytes: encoded.bytes.len(),
                 clamped: 0,
             };
-            files.push(ReadyFile { name: preview::FILE.to_owned(), record, bytes: encoded.bytes });
+            let ready = ReadyFile { name: preview::FILE.to_owned(), record, bytes: encoded.bytes };
+            // What is read by people comes last.
+            files.insert(files.len().saturating_sub(1), ready);
             return Ok(());
         }
         self.stage.write(folder, &[(preview::FILE, &encoded.bytes)])

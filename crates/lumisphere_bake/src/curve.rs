@@ -21,8 +21,8 @@ pub enum RoughnessCurve {
     /// lod = (n-1) log2((α + 0.0005) size) / log2(size): `EXT_lights_image_based` as Babylon.js 9 reads it, whose scale
     /// follows from the number of levels.
     GltfLights,
-    /// lod = (n-1) ln(1 + 10 p) / ln 11, for shaders that are free to choose: of the closed forms tried, the one between whose
-    /// levels, from nine on, linear interpolation misses least (`cargo run --release -p lumisphere_bake --example fit_table`).
+    /// lod = (n-1) ln(1 + 10 p) / ln 11, for shaders that are free to choose: between nine of its levels linear interpolation
+    /// misses less than with the other formulas here (`cargo run --release -p lumisphere_bake --example fit_table`).
     Logarithmic,
     /// p of each level: as many as the chain has levels, the first 0, none below the one before, none above 1. Between
     /// them p is linear in lod.
