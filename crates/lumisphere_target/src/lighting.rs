@@ -125,3 +125,47 @@ pub fn panorama<'a>(environment: &'a Environment, rotation: &Rotation) -> Result
     let lat_long = Grid::new(Projection::LatLong, 2 * height, height).map_err(lumisphere_image::ImageError::from)?;
     Ok(Cow::Owned(resample(environment, lat_long, rotation)))
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use lumisphere_sh::projection::project_function;
+
+    /// A function of five bands without symmetry.
+    fn harmonics() -> ShRgb {
+        project_function(5, |[x, y, z]| [x + 2.0 * y * z, z * z * z - x * y, 1.0 + x * x * y * z - z]).unwrap()
+    }
+
+    #[test]
+    fn harmonics_turn_as_the_light_does() {
+        let plain = harmonics();
+        let direction = [0.36, -0.48, 0.8];
+        let mut changed = 0;
+        for turn in AxisTurn::all() {
+            let found = turned_harmonics(&plain, turn).unwrap().evaluate(direction);
+            let expected = plain.evaluate(turn.apply(direction));
+            // Five bands of rotations whose entries are right to 1e-15.
+            assert!((0..3).all(|c| (found[c] - expected[c]).abs() < 1e-12), "{turn}: {found:?} {expected:?}");
+            changed += usize::from((0..3).any(|c| (found[c] - plain.evaluate(direction)[c]).abs() > 1e-3));
+        }
+        assert_eq!(changed, 47, "every turn but one makes a difference");
+    }
+
+    #[test]
+    fn a_panorama_that_cannot_be_permuted_is_resampled() {
+        // A quarter turn of a width that 4 does not divide.
+        let grid = Grid::new(Projection::LatLong, 66, 33).unwrap();
+        let texels = (0..66 * 33).map(|i| [(i % 66) as f32, (i / 66) as f32, 1.0]).collect();
+        let picture = Environment::new(grid, texels).unwrap();
+        let turn: AxisTurn = "z y -x".parse().unwrap();
+        let turned = turned_panorama(&picture, turn).unwrap();
+        let mean = |e: &Environment| e.mean();
+        assert!((0..3).all(|c| (mean(&turned)[c] / mean(&picture)[c] - 1.0).abs() < 1e-5));
+        // The middle of the picture looks along +X, which is what +X is turned to there.
+        let [x, y, z] = turn.apply([1.0, 0.0, 0.0]);
+        let place = grid.position([x, y, z]);
+        let found = turned.texel(0, 33, 16)[0];
+        assert!((f64::from(found) - place.x).abs() < 1.0, "{found} {}", place.x);
+    }
+}
