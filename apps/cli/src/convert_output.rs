@@ -88,7 +88,8 @@ pub(crate) fn texture(
     }
     let keys: Vec<(&str, &str)> = metadata.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
     Ok(match form {
-        OutForm::Ktx1 => ktx1::encode(&texture, format, &keys)?,
+        // Who writes KTX1 today writes it for Filament.
+        OutForm::Ktx1 => ktx1::encode_for_filament(&texture, format, &keys)?,
         OutForm::Ktx2 => ktx2::encode(&texture, format, compression, &keys)?,
         OutForm::Dds => dds::encode(&texture, format, DdsHeader::Dx10)?,
         OutForm::Env => {

@@ -224,7 +224,7 @@ impl Job<'_> {
     ) -> Result<Encoded, TargetError> {
         let keys: Vec<(&str, &str)> = metadata.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
         let file = match container {
-            TextureContainer::Ktx1 => ktx1::encode(texture, format, &keys),
+            TextureContainer::Ktx1 => ktx1::encode_for_filament(texture, format, &keys),
             TextureContainer::Ktx2 => ktx2::encode(texture, format, compression, &keys),
             TextureContainer::Dds => dds::encode(texture, format, DdsHeader::Dx10),
         };

@@ -107,7 +107,7 @@ pub enum Form {
 /// Containers of textures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextureContainer {
-    /// Khronos texture 1; a chain carries the key `sh`, Filament's nine.
+    /// Khronos texture 1 as Filament loads it; a chain carries the key `sh`, Filament's nine.
     Ktx1,
     /// Khronos texture 2.
     Ktx2,

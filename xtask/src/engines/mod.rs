@@ -13,6 +13,7 @@ mod rays;
 mod sources;
 mod tools;
 mod turn;
+mod validator;
 
 use crate::workspace;
 use anyhow::{Context, Result, bail};
@@ -80,6 +81,7 @@ pub(crate) fn run(choice: &Choice) -> Result<bool> {
         }
         if choice.only.is_none() {
             faults.extend(loaders::bevy(&folder, source.kind)?);
+            faults.extend(validator::check(&folder)?);
         }
     }
     println!("pictures (seen, predicted, difference x 4): {}", output.display());
@@ -89,7 +91,8 @@ pub(crate) fn run(choice: &Choice) -> Result<bool> {
 
 /// The targets that the cases load, each once.
 fn targets(cases: &[&Case]) -> Vec<&'static str> {
-    let mut names: Vec<&str> = cases.iter().map(|case| case.target).chain([loaders::BEVY_TARGET]).collect();
+    let read = [loaders::BEVY_TARGET, "khronos", "raw"];
+    let mut names: Vec<&str> = cases.iter().map(|case| case.target).chain(read).collect();
     names.sort_unstable();
     names.dedup();
     names

@@ -5,15 +5,15 @@
 //! are +X -X +Y -Y +Z -Z with the orientation of CONVENTIONS.md. Every format but the block formats goes in; the table of
 //! what the header says of each is in `header.rs`.
 //!
-//! Filament takes the texels by `glInternalFormat` alone and reads its nine irradiance coefficients from the key `sh`, as
-//! 27 numbers with one white-space character between them.
+//! Filament wants another `glType` than the specification where the format is `R11F_G11F_B10F` ([`encode_for_filament`]); it
+//! reads its nine irradiance coefficients from the key `sh`, as 27 numbers with one white-space character between them.
 
 mod header;
 mod read;
 mod write;
 
 pub use read::decode;
-pub use write::encode;
+pub use write::{encode, encode_for_filament};
 
 #[cfg(test)]
 mod tests;

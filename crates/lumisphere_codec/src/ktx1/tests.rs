@@ -170,3 +170,21 @@ fn damaged_files_are_refused_before_they_cost_memory() {
     let at = 64 + word(&file, 60) as usize;
     says(&|f| f[at] ^= 4, "imageSize of level 0");
 }
+
+/// `glType` is the fifth word of the file, `glInternalFormat` the eighth.
+#[test]
+fn filament_gets_the_internal_format_for_the_type_and_all_else_as_specified() {
+    let texels = vec![[1.0, 0.5, 0.25]; 6 * 16];
+    let texture = Texture { width: 4, height: 4, faces: Faces::Cube, levels: vec![LevelTexels::Rgb(&texels)] };
+    for format in [TexelFormat::B10g11r11, TexelFormat::Rgb9e5, TexelFormat::Rgb16F] {
+        let specified = encode(&texture, format, &[]).unwrap().bytes;
+        let mut filament = encode_for_filament(&texture, format, &[]).unwrap().bytes;
+        assert_eq!(decode(&filament, &Limits::default()).unwrap(), decode(&specified, &Limits::default()).unwrap());
+        if format == TexelFormat::B10g11r11 {
+            assert_eq!(filament[16..20], 0x8c3a_u32.to_le_bytes());
+            assert_eq!(specified[16..20], 0x8c3b_u32.to_le_bytes());
+            filament[16..20].copy_from_slice(&specified[16..20]);
+        }
+        assert_eq!(filament, specified);
+    }
+}

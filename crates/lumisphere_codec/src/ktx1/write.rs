@@ -1,6 +1,6 @@
 //! From texels to a file.
 
-use super::header::{Header, MAGIC, NATIVE_ORDER, gl_format, row_bytes};
+use super::header::{GlFormat, Header, MAGIC, NATIVE_ORDER, gl_format, row_bytes};
 use crate::encoded::Encoded;
 use crate::error::{CodecError, FileFormat::Ktx1};
 use crate::texture::{TexelFormat, Texture};
@@ -16,8 +16,36 @@ const ORIENTATION: (&str, &str) = ("KTXorientation", "S=r,T=d");
 /// # Errors
 /// [`CodecError::Unwritable`] for block formats and for sizes, levels, keys or texels that do not go with the format.
 pub fn encode(texture: &Texture<'_>, format: TexelFormat, metadata: &[(&str, &str)]) -> Result<Encoded, CodecError> {
-    let gl = gl_format(format)
-        .ok_or_else(|| CodecError::unwritable(Ktx1, "the texel format", format!("{format:?}"), "one without blocks"))?;
+    encode_as(texture, format, checked(format)?, metadata)
+}
+
+/// Writes a texture as Filament loads it: [`encode`], but for `R11F_G11F_B10F` the header has that number, 0x8C3A, where the
+/// specification wants the type of its words, 0x8C3B. Filament (1.53, `Ktx1Reader`) knows the format by no other, and its web
+/// build aborts on the specification's.
+///
+/// # Errors
+/// As [`encode`].
+pub fn encode_for_filament(
+    texture: &Texture<'_>,
+    format: TexelFormat,
+    metadata: &[(&str, &str)],
+) -> Result<Encoded, CodecError> {
+    let gl = checked(format)?;
+    let kind = if format == TexelFormat::B10g11r11 { gl.internal } else { gl.kind };
+    encode_as(texture, format, GlFormat { kind, ..gl }, metadata)
+}
+
+fn checked(format: TexelFormat) -> Result<GlFormat, CodecError> {
+    gl_format(format)
+        .ok_or_else(|| CodecError::unwritable(Ktx1, "the texel format", format!("{format:?}"), "one without blocks"))
+}
+
+fn encode_as(
+    texture: &Texture<'_>,
+    format: TexelFormat,
+    gl: GlFormat,
+    metadata: &[(&str, &str)],
+) -> Result<Encoded, CodecError> {
     let key_values = key_value_data(metadata)?;
     let packed = texture.pack(Ktx1, format)?;
     let shape = packed.shape;
