@@ -5,7 +5,7 @@ mod readme_commands;
 mod readme_proofs;
 
 use crate::findings::Findings;
-use crate::{arrows, workspace};
+use crate::{arrows, engines, workspace};
 use anyhow::{Context, Result};
 use std::io::Write;
 use std::process::Command;
@@ -65,6 +65,7 @@ fn steps(extent: Extent) -> Vec<Step> {
                 ),
             },
             Step { name: "README", check: Check::Function(readme::check) },
+            Step { name: "engines", check: Check::Function(engines::check) },
         ]),
     }
     steps

@@ -15,6 +15,7 @@ mod tools;
 mod turn;
 mod validator;
 
+use crate::findings::Findings;
 use crate::workspace;
 use anyhow::{Context, Result, bail};
 use cases::{CASES, Case};
@@ -87,6 +88,23 @@ pub(crate) fn run(choice: &Choice) -> Result<bool> {
     println!("pictures (seen, predicted, difference x 4): {}", output.display());
     println!("{} faults", faults.len());
     Ok(faults.is_empty())
+}
+
+/// The same as one of the checks: what was found wrong, or that it cannot run here.
+///
+/// In a process of its own, whose many lines are shown if something is wrong.
+pub(crate) fn check() -> Result<Findings> {
+    if let Err(reason) = tools::Tools::prepare() {
+        return Ok(Findings { summary: format!("SKIPPED: {reason:#}"), faults: Vec::new() });
+    }
+    let output = workspace::cargo().args(["xtask", "test-engines"]).output().context("cargo xtask test-engines")?;
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    let mut faults: Vec<String> = Vec::new();
+    if !output.status.success() {
+        faults.extend(out.lines().chain(err.lines()).map(str::to_owned));
+    }
+    let cases = out.lines().filter(|line| line.contains("next turn")).count();
+    Ok(Findings { summary: format!("{cases} scenes drawn"), faults })
 }
 
 /// The targets that the cases load, each once.
