@@ -137,7 +137,6 @@ impl Measuring<'_> {
         match self.files.levels(|h| h == Holds::Skybox, settings.skybox_size, 1)? {
             Stored::None => {}
             Stored::Unreadable(why) => report.unmeasured.push(why),
-            Stored::Levels(levels, _) if !is_cube(&levels) => report.unmeasured.push(laid_anew("skybox")),
             Stored::Levels(mut levels, stored) => {
                 report.skybox = Some(self.truth.mirror(levels.swap_remove(0), stored)?)
             }
@@ -148,7 +147,9 @@ impl Measuring<'_> {
             match self.files.levels(|h| h == holds, settings.irradiance_size, 1)? {
                 Stored::None => {}
                 Stored::Unreadable(why) => report.unmeasured.push(why),
-                Stored::Levels(levels, _) if !is_cube(&levels) => report.unmeasured.push(laid_anew("irradiance")),
+                Stored::Levels(levels, _) if !is_cube(&levels) => {
+                    report.unmeasured.push("irradiance: read between the texels of a baked cube".to_owned())
+                }
                 Stored::Levels(levels, stored) => {
                     report.irradiance = Some(self.truth.irradiance(&levels[0], unit, stored)?);
                 }
@@ -258,10 +259,6 @@ impl Measuring<'_> {
 
 fn is_cube(levels: &[Environment]) -> bool {
     levels.iter().all(|level| level.projection() == Projection::Cube)
-}
-
-fn laid_anew(what: &str) -> String {
-    format!("{what}: a baked cube laid out anew, whose texels are patches of the cube's")
 }
 
 /// As Filament's text is written.

@@ -161,8 +161,8 @@ fn draw_tile(texels: &mut [Rgb], stride: usize, rect: AtlasRect, level: &Environ
     }
 }
 
-/// The texel that lies at (x, y) beyond an edge, at most one size of the map away.
-fn across(level: &Environment, x: isize, y: isize) -> Rgb {
+/// The texel at (x, y), which may lie beyond an edge, at most one size of the map away.
+pub(crate) fn across(level: &Environment, x: isize, y: isize) -> Rgb {
     let (width, height) = (level.grid().width() as isize, level.grid().height() as isize);
     let reflected = |i: isize, size: isize| if i < 0 { -1 - i } else { 2 * size - 1 - i };
     let (mut x, mut y) = (x, y);
