@@ -36,7 +36,8 @@ fn ktx2(texels: TexelChoice, compression: Supercompression) -> Form {
     Form::Texture { container: TextureContainer::Ktx2, texels, compression }
 }
 
-/// Shared exponents, compressed: a third of the size of half floats, an error of .3 % of the brightest channel at most.
+/// Shared exponents, compressed: less than half the bytes of plain half floats, an error of .2 % of the brightest channel at
+/// most (`lumisphere formats`).
 fn small_ktx2() -> Form {
     ktx2(TexelChoice::Exactly(TexelFormat::Rgb9e5), ZSTD)
 }
