@@ -1,6 +1,7 @@
 //! One environment through the bake to the files of every target.
 
 use crate::args::BakeArgs;
+use crate::choices::FormatChoice;
 use crate::environment_input::{Adjustments, Prepared, Raw, Source, grid_text, prepare};
 use crate::environments::Named;
 use crate::files::Stage;
@@ -136,7 +137,7 @@ impl<'a> EnvironmentBaker<'a> {
             targets.push(BakedTarget { directory, record });
         }
         self.stage.publish()?;
-        let notes = notes(&made);
+        let notes = self.notes(&made);
         Ok(Outcome::Baked(Box::new(Baked { targets, total: timings.total(), notes })))
     }
 
@@ -251,6 +252,22 @@ impl<'a> EnvironmentBaker<'a> {
         // Last, so that its presence says that the others are there.
         self.stage.write(directory, &[(record::FILE, &bytes)])
     }
+
+    /// For the user: where half floats were not enough, unless the format was chosen by hand, and what did not fit.
+    fn notes(&self, made: &[Vec<ReadyFile>]) -> Vec<String> {
+        let by_hand = self.args.files.format.is_some_and(|f| f != FormatChoice::Auto);
+        let floats = format!("{:?}", TexelFormat::Rgba32F);
+        let wide = made.iter().flatten().any(|f| f.record.texels.as_ref() == Some(&floats));
+        let clamped: usize = made.iter().flatten().map(|f| f.record.clamped).sum();
+        let mut notes = Vec::new();
+        if wide && !by_hand {
+            notes.push("stored as rgba32f: some texels are above the 65504 of half floats".to_owned());
+        }
+        if clamped > 0 {
+            notes.push(format!("{clamped} values were more than their texel format holds, and were clamped"));
+        }
+        notes
+    }
 }
 
 fn ready_file(file: TargetFile, holds: Holds) -> ReadyFile {
@@ -269,19 +286,4 @@ fn usage_file(text: String) -> ReadyFile {
     let content = "how to load the files".to_owned();
     let record = FileRecord { content, holds: Holds::Text, texels: None, bytes: bytes.len(), clamped: 0 };
     ReadyFile { name: usage::FILE.to_owned(), record, bytes }
-}
-
-/// For the user where half floats were not enough.
-fn notes(made: &[Vec<ReadyFile>]) -> Vec<String> {
-    let floats = format!("{:?}", TexelFormat::Rgba32F);
-    let wide = made.iter().flatten().any(|f| f.record.texels.as_ref() == Some(&floats));
-    let clamped: usize = made.iter().flatten().map(|f| f.record.clamped).sum();
-    let mut notes = Vec::new();
-    if wide {
-        notes.push("stored as rgba32f: some texels are above the 65504 of half floats".to_owned());
-    }
-    if clamped > 0 {
-        notes.push(format!("{clamped} values were more than their texel format holds, and were clamped"));
-    }
-    notes
 }

@@ -4,7 +4,7 @@ use crate::args::ConvertArgs;
 use crate::choices::word;
 use crate::convert_content::{Content, Kind, Reading, guessed, shape_word};
 use crate::convert_harmonics::turned_nine;
-use crate::convert_output::{LARGEST_HALF, OutForm, in_projection, largest, natural_size, picture, pictures, texture};
+use crate::convert_output::{OutForm, in_projection, largest, natural_size, picture, pictures, texture};
 use crate::environment_input::Source;
 use crate::environments::expand;
 use crate::files::Stage;
@@ -227,7 +227,7 @@ fn texel_format(content: &Content, form: OutForm, args: &ConvertArgs) -> Result<
     }
     let peak = content.levels.iter().map(|level| largest(level.texels())).fold(0.0, f32::max);
     let own = content.texels.filter(|format| args.format.is_none() && takes(form, *format));
-    Ok(own.unwrap_or(match (content.kind == Kind::TwoChannels, peak > LARGEST_HALF) {
+    Ok(own.unwrap_or(match (content.kind == Kind::TwoChannels, peak > lumisphere_codec::pack::MAX_HALF) {
         (false, false) => TexelFormat::Rgba16F,
         (false, true) => TexelFormat::Rgba32F,
         (true, false) => TexelFormat::Rg16F,

@@ -9,13 +9,9 @@ use lumisphere::target::FlatLayout;
 use lumisphere_codec::dds::{self, DdsHeader};
 use lumisphere_codec::exr::{self, SampleFormat};
 use lumisphere_codec::ktx2::{self, Supercompression};
+use lumisphere_codec::pack::MAX_HALF;
 use lumisphere_codec::{Encoded, Faces, LevelTexels, TexelFormat, Texture, env, hdr, ktx1};
 use std::path::Path;
-
-/// The largest value of a half float.
-pub(crate) const LARGEST_HALF: f32 = 65504.0;
-/// Babylon's scale of levels; its own tools write this one.
-pub(crate) const LOD_GENERATION_SCALE: f64 = 0.8;
 
 /// What the extension of a file says it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,7 +90,7 @@ pub(crate) fn texture(
         OutForm::Dds => dds::encode(&texture, format, DdsHeader::Dx10)?,
         OutForm::Env => {
             let polynomial = content.harmonics.as_ref().map(nine_to_polynomial);
-            let scale = content.lod_generation_scale.unwrap_or(LOD_GENERATION_SCALE);
+            let scale = content.lod_generation_scale.unwrap_or(env::LOD_GENERATION_SCALE);
             env::encode(&texture, polynomial.as_ref(), scale)?
         }
         OutForm::Hdr | OutForm::Exr => bail!("found a picture's extension, expected a texture's"),
@@ -107,7 +103,7 @@ pub(crate) fn picture(picture: &Picture, form: OutForm) -> Result<Encoded> {
     if form == OutForm::Hdr {
         return Ok(hdr::encode(*width, *height, texels)?);
     }
-    let wide = largest(texels) > LARGEST_HALF;
+    let wide = largest(texels) > MAX_HALF;
     let samples = if wide { SampleFormat::Float } else { SampleFormat::Half };
     let known = projection.filter(|p| matches!(p, Projection::LatLong | Projection::Cube));
     Ok(exr::encode(*width, *height, texels, samples, known)?)

@@ -4,7 +4,7 @@ use crate::args::FormatsArgs;
 use crate::choices::FaceSideChoice;
 use crate::convert_command::{one_source, trial};
 use crate::convert_content::{Content, Kind, Reading};
-use crate::convert_output::{LARGEST_HALF, OutForm, texture};
+use crate::convert_output::{OutForm, texture};
 use crate::environment_input::{Adjustments, Source, load, prepare, read_file};
 use crate::formats_report::{Missing, Report, Row};
 use crate::output;
@@ -165,12 +165,12 @@ fn errors(exact: &[Environment], stored: &[Vec<[f32; 4]>]) -> Errors {
 fn largest_value(format: TexelFormat) -> f64 {
     match format {
         TexelFormat::Rgba32F | TexelFormat::Rgb32F | TexelFormat::Rg32F => f64::from(f32::MAX),
-        TexelFormat::Rgba16F | TexelFormat::Rgb16F | TexelFormat::Rg16F => f64::from(LARGEST_HALF),
+        TexelFormat::Rgba16F | TexelFormat::Rgb16F | TexelFormat::Rg16F => f64::from(lumisphere_codec::pack::MAX_HALF),
         // Khronos Data Format Specification 1.3, 10.3 and 10.4: 511/512 · 2^16, and 31/32 · 2^16 of five bits.
         TexelFormat::Rgb9e5 => 65408.0,
         TexelFormat::B10g11r11 => 64512.0,
         // Interpolated as bits of half floats; blocks do not reach infinity.
-        TexelFormat::Bc6hUfloat | TexelFormat::UastcHdr4x4 => f64::from(LARGEST_HALF),
+        TexelFormat::Bc6hUfloat | TexelFormat::UastcHdr4x4 => f64::from(lumisphere_codec::pack::MAX_HALF),
         TexelFormat::Rgbd8 => 255.0,
     }
 }

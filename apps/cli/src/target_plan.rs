@@ -4,7 +4,7 @@ use crate::args::BakeArgs;
 use crate::choices::OutputChoice;
 use anyhow::{Result, anyhow, bail};
 use lumisphere::bake::{BakeSettings, ChainSettings, LevelKernels, MonteCarloSettings, Outputs, RoughnessCurve};
-use lumisphere::target::{Content, Overrides, Target, target, targets};
+use lumisphere::target::{Content, Form, Overrides, Target, TexelChoice, target, targets};
 
 /// A target with the changes that the user wants.
 pub(crate) struct PlannedTarget {
@@ -42,6 +42,10 @@ impl Plan {
             let made = target.wants(|c| c == Content::Specular) || (preview && planned.is_empty());
             let chain_index = made.then(|| place(&mut chains, &chain));
             planned.push(PlannedTarget { target, overrides: flags(args, &overrides), chain, chain_index });
+        }
+        let is_flat = |p: &PlannedTarget| p.target.files.iter().any(|f| matches!(f.form, Form::Flat { .. }));
+        if args.files.arrange.is_some() && !planned.iter().any(is_flat) {
+            bail!("--arrange is for pictures: expected --container hdr or exr beside it");
         }
         let settings = bake_settings(args, chains, &planned, preview);
         settings.validate()?;
@@ -101,7 +105,7 @@ fn overrides(args: &BakeArgs) -> Result<Overrides> {
         turn: files.turn,
         container: files.container.map(|c| c.value()),
         layout: files.arrange.map(|a| a.value()),
-        texels: files.format.and_then(|f| f.value()),
+        texels: files.format.map(|f| f.value().map_or(TexelChoice::Auto, TexelChoice::Exactly)),
         compression: files.compress.map(|c| c.value()),
         irradiance: files.irradiance.map(|i| i.value()),
         dfg: files.dfg.map(|d| d.value()),

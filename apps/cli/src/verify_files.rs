@@ -1,7 +1,7 @@
 //! The files of a bake, read back.
 
 use crate::convert_content::cube_levels;
-use crate::convert_output::{LARGEST_HALF, largest};
+use crate::convert_output::largest;
 use crate::environment_input::read_file;
 use crate::record::{Holds, Record};
 use crate::verify_format::StoredTexels;
@@ -173,7 +173,7 @@ fn unreadable(name: &str, count: usize) -> Option<String> {
 fn picture_texels(bytes: &[u8], picture: &Picture) -> StoredTexels {
     match detect(bytes) {
         Some(FileFormat::Hdr) => StoredTexels::Rgbe,
-        _ if largest(&picture.texels) > LARGEST_HALF => StoredTexels::Float,
+        _ if largest(&picture.texels) > lumisphere_codec::pack::MAX_HALF => StoredTexels::Float,
         _ => StoredTexels::Half,
     }
 }

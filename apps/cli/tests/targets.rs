@@ -236,3 +236,29 @@ fn fitted_levels_are_what_verify_expects_of_them() {
     std::fs::write(&path, text.replace("\"fit\": true", "\"fit\": false")).unwrap();
     assert_eq!(run(folder.path(), &verify).status.code(), Some(1));
 }
+
+#[test]
+fn a_format_by_hand_reaches_every_texture_and_claims_nothing() {
+    let folder = tempdir().unwrap();
+    let texels = |name: &str, file: &str| record(&folder.path().join(name))["files"][file]["texels"].clone();
+    let said = bake(folder.path(), &[AXES, "-o", "floats", "--format", "rgba32f"]);
+    assert_eq!((texels("floats", "specular.ktx2"), texels("floats", "dfg.ktx2")), ("Rgba32F".into(), "Rg32F".into()));
+    // Nothing of the axes is above 65504.
+    assert!(!said.contains("65504"), "{said}");
+    bake(folder.path(), &[AXES, "-o", "auto", "-t", "khronos", "--format", "auto"]);
+    assert_eq!(texels("auto", "specular.ktx2"), "Rgba16F");
+    // Negative control: where it is the picture that asks for floats, that is said.
+    let said = bake(folder.path(), &[AXES, "-o", "bright", "--exposure", "20"]);
+    assert_eq!(texels("bright", "dfg.ktx2"), "Rg32F");
+    assert!(said.contains("65504"), "{said}");
+}
+
+#[test]
+fn an_arrangement_without_a_picture_is_refused() {
+    let folder = tempdir().unwrap();
+    let message = fail(folder.path(), &["bake", AXES, "--size", "32", "--arrange", "strip"]);
+    assert!(message.contains("--container hdr or exr"), "{message}");
+    bake(folder.path(), &[AXES, "-o", "out", "--arrange", "column", "--container", "hdr", "--only", "specular"]);
+    let overrides = record(&folder.path().join("out"))["settings"]["overrides"].clone();
+    assert_eq!(overrides, serde_json::json!(["size", "container", "arrange", "only"]));
+}

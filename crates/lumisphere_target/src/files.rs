@@ -13,6 +13,7 @@ use lumisphere_bsdf::DfgTable;
 use lumisphere_codec::dds::DdsHeader;
 use lumisphere_codec::exr::SampleFormat;
 use lumisphere_codec::ktx2::Supercompression;
+use lumisphere_codec::pack::MAX_HALF;
 use lumisphere_codec::png::Samples;
 use lumisphere_codec::{Encoded, Faces, LevelTexels, TexelFormat, Texture, dds, env, exr, hdr, ktx1, ktx2, png};
 use lumisphere_image::{
@@ -38,12 +39,8 @@ pub struct TargetFile {
     pub encoded: Encoded,
 }
 
-/// The largest value of a half float.
-const LARGEST_HALF: f32 = 65504.0;
 /// Texels about each level of an atlas: one serves bilinear filtering.
 const ATLAS_BORDER: usize = 1;
-/// Babylon's scale of levels; its own tools write this one.
-const LOD_GENERATION_SCALE: f64 = 0.8;
 
 /// Makes the files of a target, in parallel, in the order of its plans.
 ///
@@ -183,7 +180,7 @@ impl Job<'_> {
         let rgb = levels.iter().map(|level| LevelTexels::Rgb(level.texels())).collect();
         let texture = Texture { width: grid.width(), height: grid.height(), faces, levels: rgb };
         let format = match texels {
-            TexelChoice::Auto if self.peak > LARGEST_HALF => TexelFormat::Rgba32F,
+            TexelChoice::Auto if self.peak > MAX_HALF => TexelFormat::Rgba32F,
             TexelChoice::Auto => TexelFormat::Rgba16F,
             TexelChoice::Exactly(format) => format,
         };
@@ -199,7 +196,7 @@ impl Job<'_> {
     ) -> Result<Vec<TargetFile>, TargetError> {
         let table = self.dfg()?;
         let format = match texels {
-            TexelChoice::Auto if self.peak > LARGEST_HALF => TexelFormat::Rg32F,
+            TexelChoice::Auto if self.peak > MAX_HALF => TexelFormat::Rg32F,
             TexelChoice::Auto => TexelFormat::Rg16F,
             TexelChoice::Exactly(format) => format,
         };
@@ -257,7 +254,7 @@ impl Job<'_> {
         let texture = Texture { width: size, height: size, faces: Faces::Cube, levels };
         let packed = packed_radiance(&self.lighting.harmonics, self.lighting.window)?;
         let polynomial = BabylonPolynomial::from_radiance(&packed);
-        let encoded = env::encode(&texture, Some(&polynomial.values), LOD_GENERATION_SCALE);
+        let encoded = env::encode(&texture, Some(&polynomial.values), env::LOD_GENERATION_SCALE);
         Ok(vec![self.file(encoded.map_err(|error| self.codec(error))?, None)])
     }
 
@@ -365,7 +362,7 @@ impl Job<'_> {
             FlatFile::Hdr => hdr::encode(width, height, texels),
             FlatFile::Exr => {
                 let peak = texels.as_flattened().iter().fold(0.0, |a: f32, v| a.max(*v));
-                let samples = if peak > LARGEST_HALF { SampleFormat::Float } else { SampleFormat::Half };
+                let samples = if peak > MAX_HALF { SampleFormat::Float } else { SampleFormat::Half };
                 let known = projection.filter(|p| matches!(p, Projection::LatLong | Projection::Cube));
                 exr::encode(width, height, texels, samples, known)
             }

@@ -37,8 +37,8 @@ pub struct Overrides {
     pub container: Option<Container>,
     /// How the sphere lies in flat pictures.
     pub layout: Option<FlatLayout>,
-    /// Texel format of textures.
-    pub texels: Option<TexelFormat>,
+    /// Texel format of textures. The DFG table keeps its own, but is of floats beside cubes of floats.
+    pub texels: Option<TexelChoice>,
     /// Supercompression of KTX2.
     pub compression: Option<Supercompression>,
     /// What a texel of the irradiance cube is.
@@ -55,7 +55,7 @@ impl Overrides {
             (self.curve.is_some(), "curve"),
             (self.turn.is_some(), "turn"),
             (self.container.is_some(), "container"),
-            (self.layout.is_some(), "layout-out"),
+            (self.layout.is_some(), "arrange"),
             (self.texels.is_some(), "format"),
             (self.compression.is_some(), "compress"),
             (self.irradiance.is_some(), "irradiance"),
@@ -74,7 +74,7 @@ impl Target {
         for file in &mut self.files {
             match &mut file.content {
                 Content::Irradiance(unit) => *unit = overrides.irradiance.unwrap_or(*unit),
-                Content::Dfg => file.form = overrides.dfg.unwrap_or(file.form),
+                Content::Dfg => file.form = dfg_form(overrides.dfg.unwrap_or(file.form), overrides),
                 Content::Specular | Content::Skybox | Content::Panorama | Content::Harmonics => {}
             }
             if matches!(file.content, Content::Specular | Content::Irradiance(_) | Content::Skybox) {
@@ -90,11 +90,22 @@ fn cube_form(form: Form, content: Content, overrides: &Overrides) -> Form {
     let mut form = overrides.container.map_or(form, |container| in_container(form, content, container));
     match &mut form {
         Form::Texture { texels, compression, .. } => {
-            *texels = overrides.texels.map_or(*texels, TexelChoice::Exactly);
+            *texels = overrides.texels.unwrap_or(*texels);
             *compression = overrides.compression.unwrap_or(*compression);
         }
         Form::Flat { layout, .. } => *layout = overrides.layout.unwrap_or(*layout),
         _ => {}
+    }
+    form
+}
+
+/// The form of the DFG table.
+fn dfg_form(mut form: Form, overrides: &Overrides) -> Form {
+    if let Form::Texture { texels, compression, .. } = &mut form {
+        if overrides.texels == Some(TexelChoice::Exactly(TexelFormat::Rgba32F)) {
+            *texels = TexelChoice::Exactly(TexelFormat::Rg32F);
+        }
+        *compression = overrides.compression.unwrap_or(*compression);
     }
     form
 }

@@ -98,7 +98,8 @@ impl ShJson {
         Ok(Self {
             kind: SH_KIND.to_owned(),
             convention: "real orthonormal basis with Condon-Shortley sign, polar axis +z; right-handed world, +Y up, \
-                         -Z forward; coefficient (l, m) at l(l+1)+m; linear Rec.709 red, green, blue"
+                         -Z forward, then turned: direction d here is the world's turn(d); coefficient (l, m) at l(l+1)+m; \
+                         linear Rec.709 red, green, blue"
                 .to_owned(),
             turn: turn.to_string(),
             band_count: radiance.band_count(),

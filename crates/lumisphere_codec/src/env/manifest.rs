@@ -1,6 +1,6 @@
 //! The JSON manifest.
 
-use super::DEFAULT_LOD_GENERATION_SCALE;
+use super::LOD_GENERATION_SCALE;
 use crate::error::{CodecError, FileFormat::Env};
 use serde_json::{Map, Value, json};
 use std::ops::Range;
@@ -56,7 +56,7 @@ impl Manifest {
                 width: width.ok_or_else(|| invalid("width", manifest.get("width"), "a power of 2 up to 2^20"))?,
                 image_type,
                 spherical_polynomial: polynomial(manifest.get("irradiance"))?,
-                lod_generation_scale: scale.unwrap_or(DEFAULT_LOD_GENERATION_SCALE),
+                lod_generation_scale: scale.unwrap_or(LOD_GENERATION_SCALE),
                 images: images.iter().map(image_range).collect::<Result<_, _>>()?,
             },
             &bytes[end + 1..],

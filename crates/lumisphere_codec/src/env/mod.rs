@@ -22,8 +22,9 @@ pub use read::decode;
 pub use write::{encode, encode_face};
 
 const MAGIC: [u8; 8] = [0x86, 0x16, 0x87, 0x96, 0xf6, 0xd6, 0x96, 0x36];
-/// What Babylon.js takes for a scale that is missing or 0.
-const DEFAULT_LOD_GENERATION_SCALE: f64 = 0.8;
+/// Factor from octaves of roughness to levels: what Babylon.js's own tools write, and what it takes for a scale that is
+/// missing or 0.
+pub const LOD_GENERATION_SCALE: f64 = 0.8;
 
 /// A decoded environment.
 #[derive(Debug, Clone, PartialEq)]

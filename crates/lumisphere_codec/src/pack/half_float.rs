@@ -4,7 +4,8 @@ use super::{Packed, pack_chunks};
 use half::f16;
 use half::slice::{HalfBitsSliceExt, HalfFloatSliceExt};
 
-const MAX: f32 = 65504.0;
+/// The largest half float.
+pub const MAX_HALF: f32 = 65504.0;
 /// From here on a value is nearer to 65536 than to 65504, or a tie that goes there.
 const FIRST_TOO_LARGE: f32 = 65520.0;
 
@@ -14,7 +15,7 @@ fn is_clamped(value: f32) -> bool {
 }
 
 fn clamped_to_range(value: f32) -> f32 {
-    if value.is_nan() { 0.0 } else { value.clamp(-MAX, MAX) }
+    if value.is_nan() { 0.0 } else { value.clamp(-MAX_HALF, MAX_HALF) }
 }
 
 /// The half float nearest to `value`; finite for every input.

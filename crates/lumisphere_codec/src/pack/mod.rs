@@ -17,7 +17,7 @@ mod r11g11b10;
 mod rgb9e5;
 
 pub(crate) use half_float::f16_into;
-pub use half_float::{f16_slice, pack_f16, unpack_f16, unpack_f16_slice};
+pub use half_float::{MAX_HALF, f16_slice, pack_f16, unpack_f16, unpack_f16_slice};
 pub use r11g11b10::{MAX_10, MAX_11, pack_r11g11b10, r11g11b10_slice, unpack_r11g11b10};
 pub use rgb9e5::{MAX_RGB9E5, pack_rgb9e5, rgb9e5_slice, unpack_rgb9e5};
 
