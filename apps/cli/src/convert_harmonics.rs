@@ -5,7 +5,7 @@
 
 use anyhow::Result;
 use lumisphere::sh::ShRgb;
-use lumisphere::sh::packed::{FilamentNine, form_factor_constants};
+use lumisphere::sh::packed::{BabylonPolynomial, FilamentNine, form_factor_constants};
 use lumisphere::sphere::AxisTurn;
 use lumisphere::target::turned_harmonics;
 
@@ -17,12 +17,7 @@ pub(crate) fn nine_from_text(text: &str) -> Option<FilamentNine> {
     Some(FilamentNine { values: values.try_into().ok()? })
 }
 
-/// The text of the key `sh`: single white-space characters between the numbers, as Filament's loader splits them.
-pub(crate) fn nine_to_text(nine: &FilamentNine) -> String {
-    nine.values.iter().map(|[r, g, b]| format!("{r:.9} {g:.9} {b:.9}\n")).collect()
-}
-
-/// What the bands of a polynomial are of those of E/π: the clamped cosine over π, once more (see `lumisphere_sh::packed::BabylonPolynomial`).
+/// What the bands of a polynomial are of those of E/π: the clamped cosine over π, once more ([`BabylonPolynomial`]).
 const POLYNOMIAL_BANDS: [f64; 3] = [1.0, 2.0 / 3.0, 0.25];
 
 /// From Babylon's coefficients of x, y, z, xx, yy, zz, yz, zx, xy, with 1 = xx + yy + zz.
@@ -40,15 +35,8 @@ pub(crate) fn nine_from_polynomial(polynomial: &[[f64; 3]; 9]) -> FilamentNine {
 }
 
 /// The inverse of [`nine_from_polynomial`].
-pub(crate) fn nine_to_polynomial(nine: &FilamentNine) -> [[f64; 3]; 9] {
-    let [_, b, q] = POLYNOMIAL_BANDS;
-    let channel = |c: usize| {
-        let [v0, y, z, x, xy, yz, v6, zx, v8] = nine.values.map(|v| v[c]);
-        let [v6, v8] = [q * v6, q * v8];
-        [b * x, b * y, b * z, v0 - v6 + v8, v0 - v6 - v8, v0 + 2.0 * v6, q * yz, q * zx, q * xy]
-    };
-    let channels = [0, 1, 2].map(channel);
-    std::array::from_fn(|i| channels.map(|v| v[i]))
+pub(crate) fn nine_to_polynomial(nine: &FilamentNine) -> Result<[[f64; 3]; 9]> {
+    Ok(BabylonPolynomial::from_radiance(&radiance_of_nine(nine)?).values)
 }
 
 /// Radiance of three bands whose nine these are: the inverse of [`FilamentNine::from_radiance`].
@@ -68,7 +56,7 @@ pub(crate) fn turned_nine(nine: &FilamentNine, turn: AxisTurn) -> Result<Filamen
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use lumisphere::sh::packed::BabylonPolynomial;
+    use lumisphere::target::nine_text;
 
     /// Sums of a few products of numbers of order 1.
     const ROUNDING: f64 = 1e-12;
@@ -87,15 +75,12 @@ mod tests {
 
     #[test]
     fn the_polynomial_has_the_same_value_at_every_normal() {
-        let polynomial = nine_to_polynomial(&nine());
+        let polynomial = nine_to_polynomial(&nine()).unwrap();
         for n in normals() {
             assert!(close(BabylonPolynomial { values: polynomial }.evaluate(n), nine().evaluate(n)), "{n:?}");
         }
         let back = nine_from_polynomial(&polynomial);
         assert!(back.values.iter().zip(nine().values).all(|(a, b)| close(*a, b)));
-        // As the library packs it.
-        let packed = BabylonPolynomial::from_radiance(&radiance_of_nine(&nine()).unwrap());
-        assert!(packed.values.iter().zip(polynomial).all(|(a, b)| close(*a, b)));
     }
 
     #[test]
@@ -110,7 +95,7 @@ mod tests {
 
     #[test]
     fn text_gives_the_nine_back_and_other_texts_are_none() {
-        let found = nine_from_text(&nine_to_text(&nine())).unwrap();
+        let found = nine_from_text(&nine_text(&nine())).unwrap();
         // Nine decimals.
         assert!(found.values.iter().flatten().zip(nine().values.iter().flatten()).all(|(a, b)| (a - b).abs() < 6e-10));
         for text in ["", "1 2 3", &"1 ".repeat(28), &"x ".repeat(27), &"nan ".repeat(27)] {

@@ -1,11 +1,11 @@
 //! Levels into a file of any container.
 
 use crate::convert_content::{Content, Kind};
-use crate::convert_harmonics::{nine_to_polynomial, nine_to_text};
+use crate::convert_harmonics::nine_to_polynomial;
 use anyhow::{Result, bail};
 use lumisphere::image::{Environment, FaceNaming, FaceSide, Picture, faces_of, lay_flat, resample};
 use lumisphere::sphere::{Grid, Projection, Rotation};
-use lumisphere::target::FlatLayout;
+use lumisphere::target::{FlatLayout, nine_text};
 use lumisphere_codec::dds::{self, DdsHeader};
 use lumisphere_codec::exr::{self, SampleFormat};
 use lumisphere_codec::ktx2::{self, Supercompression};
@@ -80,7 +80,7 @@ pub(crate) fn texture(
     let texture = Texture { width: first.width(), height: first.height(), faces, levels };
     let mut metadata = content.metadata.clone();
     if let (OutForm::Ktx1, Some(nine)) = (form, &content.harmonics) {
-        metadata.push(("sh".to_owned(), nine_to_text(nine)));
+        metadata.push(("sh".to_owned(), nine_text(nine)));
     }
     let keys: Vec<(&str, &str)> = metadata.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
     Ok(match form {
@@ -89,7 +89,7 @@ pub(crate) fn texture(
         OutForm::Ktx2 => ktx2::encode(&texture, format, compression, &keys)?,
         OutForm::Dds => dds::encode(&texture, format, DdsHeader::Dx10)?,
         OutForm::Env => {
-            let polynomial = content.harmonics.as_ref().map(nine_to_polynomial);
+            let polynomial = content.harmonics.as_ref().map(nine_to_polynomial).transpose()?;
             let scale = content.lod_generation_scale.unwrap_or(env::LOD_GENERATION_SCALE);
             env::encode(&texture, polynomial.as_ref(), scale)?
         }

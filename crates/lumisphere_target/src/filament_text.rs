@@ -10,7 +10,10 @@ use lumisphere_sh::packed::FilamentNine;
 
 /// E/π of three bands of radiance.
 pub(crate) fn filament_text(radiance: &ShRgb, window: ShWindow) -> Result<String, TargetError> {
-    let nine = FilamentNine::from_radiance(&packed_radiance(radiance, window)?);
-    let line = |[r, g, b]: &[f64; 3]| format!("{r:.9} {g:.9} {b:.9}\n");
-    Ok(nine.values.iter().map(line).collect())
+    Ok(nine_text(&FilamentNine::from_radiance(&packed_radiance(radiance, window)?)))
+}
+
+/// The text of the key `sh` and of `sh.txt`: a line of red, green and blue for each of the nine, to nine decimals.
+pub fn nine_text(nine: &FilamentNine) -> String {
+    nine.values.iter().map(|[r, g, b]| format!("{r:.9} {g:.9} {b:.9}\n")).collect()
 }

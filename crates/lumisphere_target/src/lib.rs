@@ -21,6 +21,7 @@ mod target;
 
 pub use dfg_source::{Language, dfg_source};
 pub use error::TargetError;
+pub use filament_text::nine_text;
 pub use files::{TargetFile, files};
 pub use gltf::embed;
 pub use gltf_model::GltfModel;
