@@ -1,7 +1,7 @@
 //! What can be wrong with the parameters of a reflectance model.
 
-/// A parameter outside its range.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+/// What is wrong with a parameter.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BsdfError {
     /// A roughness that is NaN or outside [0, 1].
@@ -19,5 +19,53 @@ pub enum BsdfError {
         found: usize,
         /// The largest size allowed.
         limit: usize,
+    },
+    /// No model has this name.
+    #[error("no model is called {found:?}; there are {known}")]
+    UnknownModel {
+        /// As written.
+        found: String,
+        /// The names there are.
+        known: String,
+    },
+    /// No parameter of the model has this name.
+    #[error("{model} has no parameter {found:?}; it has {known}")]
+    UnknownParameter {
+        /// The model.
+        model: &'static str,
+        /// As written.
+        found: String,
+        /// The names there are.
+        known: String,
+    },
+    /// A text that is not what the parameter may be.
+    #[error("{parameter} is {found:?}, expected {expected}")]
+    ParameterText {
+        /// The parameter.
+        parameter: &'static str,
+        /// As written.
+        found: String,
+        /// What it may be.
+        expected: String,
+    },
+    /// A number that is not what the parameter may be.
+    #[error("{parameter} is {found}, expected {expected}")]
+    ParameterValue {
+        /// The parameter.
+        parameter: &'static str,
+        /// As given.
+        found: f64,
+        /// What it may be.
+        expected: String,
+    },
+    /// Not as many values as the model has parameters.
+    #[error("{model} takes {expected} values, found {found}")]
+    ParameterCount {
+        /// The model.
+        model: &'static str,
+        /// How many were given.
+        found: usize,
+        /// How many it takes.
+        expected: usize,
     },
 }

@@ -1,4 +1,5 @@
-//! Reflectance for image-based lighting: normal distributions, masking-shadowing, Fresnel, prefilter lobes and
+//! Reflectance: [`Bsdf`], the triad `eval / sample / pdf` of every model, and what image-based lighting needs of them:
+//! normal distributions, masking-shadowing, Fresnel, prefilter lobes and
 //! directional albedo (the DFG table).
 //!
 //! | module | what it holds |
@@ -8,27 +9,35 @@
 //! | [`visibility`] | masking-shadowing as V = G / (4 n·l n·v), for metals and dielectrics and for sheen |
 //! | [`fresnel`] | Schlick's approximation |
 //! | [`lobe`] | the zonal lobes that prefilter an environment for v = n = r |
+//! | [`model`] | every reflectance model by name, with its parameters and claims |
+//! | [`material`] | the layered metallic-roughness material |
 //! | [`dfg`] | directional and average albedo by deterministic quadrature |
 //! | [`dfg_table`] | the albedo tabulated over n·v and perceptual roughness |
 //!
 //! Everything is f64, isotropic and free of state. The functions are total: out-of-range roughness cannot be built
 //! (see [`Alpha::new`]), and α = 0 is computed as α = [`ndf::MIN_ALPHA`].
 
+mod bsdf;
 pub mod dfg;
 pub mod dfg_table;
 mod error;
 pub mod fresnel;
 mod half_vector_rule;
 pub mod lobe;
+pub mod material;
+pub mod model;
 pub mod ndf;
 pub mod roughness;
 mod special;
 pub mod visibility;
 
+pub use bsdf::{Bsdf, BsdfSample, Rgb};
 pub use dfg::DfgTerms;
 pub use dfg_table::DfgTable;
 pub use error::BsdfError;
 pub use lobe::{Lobe, LobeShape, LobeWeight};
+pub use material::AlbedoTables;
+pub use model::{MODELS, Model, model_named};
 pub use ndf::Ndf;
 pub use roughness::{Alpha, PerceptualRoughness};
 pub use visibility::{Cosines, Masking, SheenMasking};

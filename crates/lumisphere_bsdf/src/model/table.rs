@@ -1,0 +1,6 @@
+//! The table of models.
+
+use super::{Model, lambert};
+
+/// Every model, diffuse ones first.
+pub const MODELS: &[&Model] = &[&lambert::MODEL];
