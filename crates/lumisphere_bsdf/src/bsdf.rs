@@ -44,8 +44,8 @@ impl BsdfSample {
     pub fn at(bsdf: &(impl Bsdf + ?Sized), wo: Vec3, wi: Vec3) -> Option<Self> {
         let pdf = bsdf.pdf(wo, wi);
         if pdf > 0.0 && pdf.is_finite() {
-            let scale = wi[2].abs() / pdf;
-            Some(Self { wi, weight: bsdf.eval(wo, wi).map(|f| f * scale), pdf })
+            // Not f (cos / pdf): at the least densities that quotient would overflow.
+            Some(Self { wi, weight: bsdf.eval(wo, wi).map(|f| f * wi[2].abs() / pdf), pdf })
         } else {
             None
         }

@@ -28,6 +28,14 @@ pub enum BsdfError {
         /// The names there are.
         known: String,
     },
+    /// No preset has this name.
+    #[error("no material is called {found:?}; there are {known}")]
+    UnknownPreset {
+        /// As written.
+        found: String,
+        /// The names there are.
+        known: String,
+    },
     /// No parameter of the model has this name.
     #[error("{model} has no parameter {found:?}; it has {known}")]
     UnknownParameter {

@@ -2,11 +2,14 @@
 
 use std::f64::consts::PI;
 
-/// The complementary error function for x ≥ 0, to about 1e-15 absolute (1e-13 relative in the tail).
+/// The complementary error function, to about 1e-15 absolute (1e-13 relative in the tail).
 ///
 /// Below 2.5 the series of positive terms erf x = 2/√π e^{-x²} Σ 2ⁿ x^{2n+1} / (2n+1)!! (Abramowitz and Stegun 7.1.6);
 /// above, the continued fraction of 7.1.14 from the inside out.
 pub(crate) fn erfc(x: f64) -> f64 {
+    if x < 0.0 {
+        return 2.0 - erfc(-x);
+    }
     let gauss = (-x * x).exp();
     if x < 2.5 {
         let (mut term, mut sum, mut n) = (x, x, 1.0);
@@ -38,6 +41,7 @@ mod tests {
                 .sum();
             let expected = 2.0 / PI.sqrt() * tail;
             assert!((erfc(x) - expected).abs() < 1e-13 * (1e-2 + expected), "x = {x}: {} vs {expected}", erfc(x));
+            assert!((erfc(x) + erfc(-x) - 2.0).abs() < 1e-15, "x = {x}");
         }
     }
 }

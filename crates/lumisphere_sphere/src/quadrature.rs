@@ -2,7 +2,7 @@
 
 mod kronrod;
 
-pub use kronrod::{Estimate, adaptive};
+pub use kronrod::{Estimate, adaptive, kronrod_pair};
 
 use std::f64::consts::PI;
 

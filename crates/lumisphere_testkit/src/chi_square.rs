@@ -3,6 +3,8 @@
 //! The sphere is cut into cells of (θ, φ) about +z. The pdf is integrated over each cell, the sampler is run on random
 //! points of the unit square, and the counts are compared. What the sampler refuses (`None`) goes into a cell of its
 //! own, expected to hold what the pdf lacks to 1: a sampler that loses light is rejected as one that misplaces it.
+//!
+//! For lobes that are sharp, off the axis or cut off at the horizon: [`SampleCells`](crate::SampleCells).
 
 use crate::gamma::chi_square_p_value;
 use crate::random::Random;
@@ -85,9 +87,7 @@ pub fn chi_square(
     pdf: impl Fn(Vec3) -> f64,
     settings: &ChiSquareSettings,
 ) -> ChiSquareReport {
-    let shares = cell_integrals(&pdf, settings);
-    let pdf_integral: f64 = shares.iter().sum();
-    let mut counts = vec![0_usize; shares.len()];
+    let mut counts = vec![0_usize; settings.azimuth_cells * (settings.theta_edges.len() - 1)];
     let mut lost_samples = 0;
     let mut random = Random::new(settings.seed);
     for _ in 0..settings.sample_count {
@@ -96,14 +96,20 @@ pub fn chi_square(
             None => lost_samples += 1,
         }
     }
-    let total = settings.sample_count as f64;
+    compare(&cell_integrals(&pdf, settings), &counts, lost_samples, settings.min_expected)
+}
+
+/// The counts of cells against their shares of the pdf, and `lost_samples` against what it lacks to 1.
+pub(crate) fn compare(shares: &[f64], counts: &[usize], lost_samples: usize, min_expected: f64) -> ChiSquareReport {
+    let pdf_integral: f64 = shares.iter().sum();
+    let total = (counts.iter().sum::<usize>() + lost_samples) as f64;
     let mut cells: Vec<Count> = shares
         .iter()
-        .zip(&counts)
+        .zip(counts)
         .map(|(&share, &count)| Count { expected: share * total, observed: count as f64 })
         .collect();
     cells.push(Count { expected: ((1.0 - pdf_integral) * total).max(0.0), observed: lost_samples as f64 });
-    let (cells, pooled_cells) = pool(cells, settings.min_expected);
+    let (cells, pooled_cells) = pool(cells, min_expected);
     let statistic: f64 = cells.iter().map(Count::term).sum();
     let degrees_of_freedom = cells.len().saturating_sub(1);
     let p_value = if statistic.is_finite() { chi_square_p_value(statistic, degrees_of_freedom) } else { 0.0 };

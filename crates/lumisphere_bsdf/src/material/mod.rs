@@ -1,12 +1,30 @@
-//! The layered material and the albedo tables it needs.
+//! The layered metallic-roughness material: what it is, and how it is evaluated.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `definition` | [`Material`]: glTF's parameters |
+//! | `choices` | [`Compensation`], [`DiffuseCoupling`]: where the textbooks differ |
+//! | `surface` | [`Surface`]: the layers together, `eval / sample / pdf` |
+//! | `base` | metal and dielectric, mixed |
+//! | `specular`, `sheen` | their lobes |
+//! | `compensation` | multiple scattering between facets |
+//! | `balance` | what keeps the energy of the diffuse lobe |
+//! | `specular_albedo`, `nodes` | directional albedo over the view |
+//! | `albedo_tables` | [`AlbedoTables`]: what each layer leaves for those below |
 
-/// Directional albedo over n·v and perceptual roughness for the layers of a material.
-#[derive(Debug, Clone)]
-pub struct AlbedoTables {}
+mod albedo_tables;
+mod balance;
+mod base;
+mod choices;
+mod compensation;
+mod definition;
+mod nodes;
+mod sheen;
+mod specular;
+mod specular_albedo;
+mod surface;
 
-impl AlbedoTables {
-    /// Computes them.
-    pub fn compute() -> Self {
-        Self {}
-    }
-}
+pub use albedo_tables::AlbedoTables;
+pub use choices::{Compensation, DiffuseCoupling};
+pub use definition::Material;
+pub use surface::Surface;

@@ -1,6 +1,8 @@
 //! Lambert's diffuse reflection: every direction alike.
 //!
-//!     f = ρ / π
+//! ```text
+//! f = ρ / π
+//! ```
 //!
 //! | parameter | range | default | what it is |
 //! |---|---|---|---|

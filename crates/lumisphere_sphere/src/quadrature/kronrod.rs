@@ -38,6 +38,15 @@ const KRONROD: [f64; 8] = [
 const GAUSS: [f64; 4] =
     [0.129_484_966_168_869_693, 0.279_705_391_489_276_668, 0.381_830_050_505_118_945, 0.417_959_183_673_469_388];
 
+/// The pair on [-1, 1] as (node, weight of the 15-point rule, weight of the 7-point rule), nodes ascending.
+pub fn kronrod_pair() -> [(f64, f64, f64); 15] {
+    std::array::from_fn(|i| {
+        let k = i.min(14 - i);
+        let node = if i < 7 { -NODES[k] } else { NODES[k] };
+        (node, KRONROD[k], if k % 2 == 1 { GAUSS[k / 2] } else { 0.0 })
+    })
+}
+
 /// Intervals are halved until there are this many.
 const MAX_INTERVALS: usize = 2000;
 
