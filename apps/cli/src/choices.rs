@@ -106,6 +106,7 @@ choice! {
         SchlickGgxDirect = Masking::SchlickGgxDirect,
         VCavity = Masking::VCavity,
         SmithBeckmann = Masking::SmithBeckmann,
+        SmithBeckmannCorrelated = Masking::SmithBeckmannCorrelated,
     }
 }
 

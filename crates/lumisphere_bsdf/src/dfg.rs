@@ -5,7 +5,7 @@
 //! by quadrature instead of sampling.
 
 use crate::half_vector_rule::{HalfVectorRule, Measure, Smoothness};
-use crate::visibility::{MIN_COSINE, smith_beckmann_g1, stretched_length};
+use crate::visibility::{MIN_COSINE, smith_beckmann_correlated, smith_beckmann_g1, stretched_length};
 use crate::{Alpha, Masking, SheenMasking};
 use lumisphere_sphere::quadrature::gauss_legendre;
 
@@ -80,6 +80,9 @@ impl GgxAlbedo {
                 let scale = smith_beckmann_g1(v, alpha) / v;
                 self.rule.albedo(v, measure, |l, _, _| scale * smith_beckmann_g1(l.max(MIN_COSINE), alpha))
             }
+            Masking::SmithBeckmannCorrelated => {
+                self.rule.albedo(v, measure, |l, _, _| 4.0 * l * smith_beckmann_correlated(l, v, alpha))
+            }
         };
         DfgTerms { scale: total - bias, bias }
     }
@@ -89,8 +92,8 @@ impl GgxAlbedo {
 ///
 /// Absolute error below 1e-5 against adaptive quadrature over light directions (test `terms_match_adaptive_quadrature`).
 /// n·v is clamped to [[`MIN_N_DOT_V`], 1]; α = 0 is taken as [`crate::ndf::MIN_ALPHA`]. NaN gives NaN.
-/// D is GGX whatever the masking function: [`Masking::SmithBeckmann`] hides less than GGX's long tail needs,
-/// and at grazing n·v its sum exceeds 1. The other functions stay at or below 1.
+/// D is GGX whatever the masking function: [`Masking::SmithBeckmann`] and [`Masking::SmithBeckmannCorrelated`] hide less than GGX's long
+/// tail needs, and at grazing n·v the sum exceeds 1. The other functions stay at or below 1.
 pub fn ggx_albedo(n_dot_v: f64, alpha: Alpha, masking: Masking) -> DfgTerms {
     GgxAlbedo::new(masking).terms(n_dot_v, alpha)
 }

@@ -76,14 +76,19 @@ impl DfgTable {
     }
 }
 
-fn centre(index: usize, size: usize) -> f64 {
+/// # Errors
+/// [`BsdfError::TableSize`].
+pub(crate) fn check_size(size: usize) -> Result<(), BsdfError> {
+    if (1..=MAX_SIZE).contains(&size) { Ok(()) } else { Err(BsdfError::TableSize { found: size, limit: MAX_SIZE }) }
+}
+
+/// Where texel `index` of `size` has its centre, in [0, 1].
+pub(crate) fn centre(index: usize, size: usize) -> f64 {
     (index as f64 + 0.5) / size as f64
 }
 
 fn tabulate<T: Send>(size: usize, value: impl Fn(f64, PerceptualRoughness) -> T + Sync) -> Result<Vec<T>, BsdfError> {
-    if !(1..=MAX_SIZE).contains(&size) {
-        return Err(BsdfError::TableSize { found: size, limit: MAX_SIZE });
-    }
+    check_size(size)?;
     let rows = (0..size).into_par_iter().flat_map_iter(|y| {
         let (value, p) = (&value, PerceptualRoughness::clamped(centre(y, size)));
         (0..size).map(move |x| value(centre(x, size), p))

@@ -20,6 +20,14 @@ pub enum BsdfError {
         /// The largest size allowed.
         limit: usize,
     },
+    /// A table over what is no number.
+    #[error("{model} has no table over {found}, expected a parameter that is a number")]
+    NotTabulated {
+        /// The model.
+        model: &'static str,
+        /// The parameter.
+        found: String,
+    },
     /// No model has this name.
     #[error("no model is called {found:?}; there are {known}")]
     UnknownModel {

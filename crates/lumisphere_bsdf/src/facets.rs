@@ -156,6 +156,12 @@ impl Facets {
         (0.5 * r * (-a * a).exp() / PI.sqrt() - 0.5 * z * erfc(a)).max(0.0)
     }
 
+    /// The width in the plane of the normal and `w`, √((α_x x)² + (α_y y)²)/sin θ; along the tangent for the normal itself.
+    pub(crate) fn alpha_towards(&self, w: Vec3) -> Alpha {
+        let sine = w[0].hypot(w[1]);
+        Alpha::clamped(if sine > 0.0 { (self.alpha_x * w[0]).hypot(self.alpha_y * w[1]) / sine } else { self.alpha_x })
+    }
+
     /// A facet normal for a random point of the unit square; its density is [`Facets::pdf`].
     pub fn sample(&self, wo: Vec3, u: [f64; 2], how: NormalSampling) -> Vec3 {
         let wo = above(wo);

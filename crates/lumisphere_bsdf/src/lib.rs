@@ -14,6 +14,7 @@
 //! | [`model`] | every reflectance model by name, with its parameters and claims |
 //! | [`material`] | the layered metallic-roughness material |
 //! | [`albedo`] | directional and average albedo of any model, by quadrature and by its sampler |
+//! | [`albedo_table`] | the albedo of any model tabulated over n·v and one of its parameters |
 //! | [`dfg`] | directional and average albedo by deterministic quadrature |
 //! | [`dfg_table`] | the albedo tabulated over n·v and perceptual roughness |
 //!
@@ -21,6 +22,7 @@
 //! (see [`Alpha::new`]), and α = 0 is computed as α = [`ndf::MIN_ALPHA`].
 
 pub mod albedo;
+pub mod albedo_table;
 mod bsdf;
 pub mod dfg;
 pub mod dfg_table;
@@ -30,9 +32,11 @@ pub mod fresnel;
 mod half_vector_rule;
 pub mod lobe;
 pub mod material;
+mod microfacet;
 pub mod model;
 pub mod ndf;
 pub mod presets;
+mod rough_dielectric;
 pub mod roughness;
 mod special;
 pub mod visibility;
@@ -40,6 +44,7 @@ mod visible_beckmann;
 mod visible_ggx;
 
 pub use albedo::Albedo;
+pub use albedo_table::AlbedoTable;
 pub use bsdf::{Bsdf, BsdfSample, Rgb};
 pub use dfg::DfgTerms;
 pub use dfg_table::DfgTable;
@@ -48,8 +53,10 @@ pub use facets::{FacetShape, Facets, NormalSampling};
 pub use fresnel::Fresnel;
 pub use lobe::{Lobe, LobeShape, LobeWeight};
 pub use material::{AlbedoTables, Material};
+pub use microfacet::Microfacet;
 pub use model::{MODELS, Model, model_named};
 pub use ndf::Ndf;
 pub use presets::{PRESETS, Preset, preset_named};
+pub use rough_dielectric::RoughDielectric;
 pub use roughness::{Alpha, PerceptualRoughness};
 pub use visibility::{Cosines, Masking, SheenMasking};

@@ -39,17 +39,20 @@ pub enum Masking {
     VCavity,
     /// Smith for Beckmann as a product G1(l) G1(v), exact. See [`smith_beckmann`].
     SmithBeckmann,
+    /// Smith for Beckmann, masking and shadowing correlated by height. See [`smith_beckmann_correlated`].
+    SmithBeckmannCorrelated,
 }
 
 impl Masking {
     /// Every function, for tests and lists.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::SmithGgxCorrelated,
         Self::SmithGgxSeparable,
         Self::SchlickGgxIbl,
         Self::SchlickGgxDirect,
         Self::VCavity,
         Self::SmithBeckmann,
+        Self::SmithBeckmannCorrelated,
     ];
 
     /// V = G / (4 n·l n·v), in sr⁻¹ when multiplied by D.
@@ -61,6 +64,7 @@ impl Masking {
             Self::SchlickGgxIbl | Self::SchlickGgxDirect => schlick_ggx(l, v, self.schlick_k(alpha)),
             Self::VCavity => v_cavity(cosines),
             Self::SmithBeckmann => smith_beckmann(l, v, alpha),
+            Self::SmithBeckmannCorrelated => smith_beckmann_correlated(l, v, alpha),
         }
     }
 
@@ -97,8 +101,13 @@ pub fn smith_ggx_separable(n_dot_l: f64, n_dot_v: f64, alpha: Alpha) -> f64 {
 ///
 /// Schlick 1994, eq. 19, with Karis's k (2013, eq. 4).
 pub fn schlick_ggx(n_dot_l: f64, n_dot_v: f64, k: f64) -> f64 {
-    let (l, v) = (n_dot_l.max(MIN_COSINE), n_dot_v.max(MIN_COSINE));
-    0.25 / ((l * (1.0 - k) + k) * (v * (1.0 - k) + k))
+    0.25 * schlick_g1_over_cosine(n_dot_l, k) * schlick_g1_over_cosine(n_dot_v, k)
+}
+
+/// G1/cos θ of Schlick's fit.
+#[inline]
+pub(crate) fn schlick_g1_over_cosine(cosine: f64, k: f64) -> f64 {
+    1.0 / (cosine.max(MIN_COSINE) * (1.0 - k) + k)
 }
 
 /// V-shaped grooves: G = min(1, 2 n·h n·v / v·h, 2 n·h n·l / v·h); α plays no part.
@@ -117,6 +126,14 @@ pub fn v_cavity(cosines: &Cosines) -> f64 {
 pub fn smith_beckmann(n_dot_l: f64, n_dot_v: f64, alpha: Alpha) -> f64 {
     let (l, v) = (n_dot_l.max(MIN_COSINE), n_dot_v.max(MIN_COSINE));
     0.25 * smith_beckmann_g1(l, alpha) * smith_beckmann_g1(v, alpha) / (l * v)
+}
+
+/// Height-correlated Smith for Beckmann: V = 1/(4 n·l n·v (1 + Λ(l) + Λ(v))).
+///
+/// Heitz 2014, eq. 99, with eq. 67.
+pub fn smith_beckmann_correlated(n_dot_l: f64, n_dot_v: f64, alpha: Alpha) -> f64 {
+    let (l, v) = (n_dot_l.max(MIN_COSINE), n_dot_v.max(MIN_COSINE));
+    0.25 / (l * v * (1.0 / smith_beckmann_g1(l, alpha) + 1.0 / smith_beckmann_g1(v, alpha) - 1.0))
 }
 
 /// G1 = 1/(1 + Λ), Λ = exp(-a²)/(2a√π) - erfc(a)/2, a = 1/(α tan θ) (Heitz 2014, eq. 67).

@@ -2,6 +2,7 @@
 
 use super::nodes::{mix, mix_pairs, node, place, value_at};
 use crate::dfg::{CharlieAlbedo, GgxAlbedo};
+use crate::fresnel::schlick_weight;
 use crate::{Masking, PerceptualRoughness, SheenMasking};
 
 /// Nodes over n·v.
@@ -32,6 +33,11 @@ impl AlbedoTables {
         let sheen = CharlieAlbedo::new(SheenMasking::EstevezKulla);
         let nodes = || (0..ROUGHNESSES).flat_map(|row| (0..COSINES).map(move |i| (node(i, COSINES), roughness(row))));
         let terms = |(n_dot_v, p): (f64, PerceptualRoughness)| {
+            if p.value() == 0.0 {
+                // A mirror loses nothing, and compensation finds nothing to do.
+                let bias = schlick_weight(n_dot_v);
+                return [1.0 - bias, bias];
+            }
             let terms = specular.terms(n_dot_v, p.to_alpha());
             [terms.scale, terms.bias]
         };

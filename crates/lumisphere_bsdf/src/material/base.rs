@@ -74,13 +74,18 @@ impl Base {
 
     /// f for a light below a thin surface: the specular lobe, mirrored, with all of the light that the surface lets through.
     pub(super) fn transmitted(&self, wo: Vec3, wi: Vec3) -> Rgb {
-        if self.transmission == 0.0 || self.metallic == 1.0 {
+        if !self.transmits() {
             return [0.0; 3];
         }
         let seen = self.lobe.seen(wo, mirrored(wi));
         let share = (1.0 - self.metallic) * self.transmission * self.let_through_thin(wo, &seen);
         let normalised = seen.value / (seen.losses.view[0] + seen.losses.view[1]);
         self.color.map(|c| c * share * normalised)
+    }
+
+    /// Whether any light passes to the other side.
+    pub(super) fn transmits(&self) -> bool {
+        self.transmission > 0.0 && self.metallic < 1.0
     }
 
     /// What the diffuse lobe is multiplied by to make room for the specular one.

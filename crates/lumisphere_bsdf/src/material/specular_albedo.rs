@@ -7,24 +7,27 @@ use crate::facets::{Facets, NormalSampling};
 use crate::fresnel::schlick_weight;
 use crate::{Alpha, PerceptualRoughness};
 use lumisphere_sphere::Vec3;
-use lumisphere_sphere::sequence::sobol;
+use lumisphere_sphere::quadrature::gauss_legendre;
 use lumisphere_sphere::vector::{dot, scale, sub};
 use std::f64::consts::FRAC_PI_2;
 
 /// Nodes of a stretched lobe over n·v, and over the azimuth from the stretch to across it.
 const COSINES: usize = 32;
 const AZIMUTHS: usize = 17;
-/// How much narrower the nodes may stand across the stretch, where the albedo changes within about α_y/α_x.
-const CROWDING: f64 = 2.5;
-/// Facets drawn for each node of a stretched lobe.
-const FACETS: u32 = 1024;
+/// How much the rows crowd at most across the stretch: a few of them must do for the rest.
+const NARROWEST: f64 = 0.05;
+/// Facets for each node of a stretched lobe, along the cap that the viewer sees and round it.
+const HEIGHTS: usize = 32;
+const TURNS: usize = 32;
+/// Few of them reflect below the horizon.
+const SAMPLING: NormalSampling = NormalSampling::Visible;
 
 /// (scale, bias) of GGX with height-correlated Smith for every view: E = F0·scale + F90·bias.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SpecularAlbedo {
     /// A row over n·v for each azimuth from 0 to π/2; one row if the lobe is the same all round.
     rows: Vec<Vec<[f64; 2]>>,
-    /// The azimuths of the rows are even in atan(squeeze tan φ).
+    /// The rows' azimuths are even in [`place_of`] with this squeeze.
     squeeze: f64,
 }
 
@@ -41,9 +44,9 @@ impl SpecularAlbedo {
         if along == across {
             return Self::isotropic(Alpha::clamped(along).to_perceptual_roughness(), tables);
         }
-        let squeeze = (across / along).sqrt().clamp(1.0 / CROWDING, CROWDING);
+        let squeeze = (across / along).max(NARROWEST);
         let azimuth = |row: usize| azimuth_of(row as f64 / (AZIMUTHS - 1) as f64, squeeze);
-        let points: Vec<[f64; 2]> = (0..FACETS).map(cell_centre).collect();
+        let points = facet_points();
         let row = |row: usize| {
             (0..COSINES).map(|i| integrated(facets, view(node(i, COSINES), azimuth(row)), &points)).collect()
         };
@@ -56,8 +59,7 @@ impl SpecularAlbedo {
         if self.rows.len() == 1 {
             return read(0);
         }
-        let turn = (self.squeeze * w[1].abs()).atan2(w[0].abs()) / FRAC_PI_2;
-        let (row, share) = place(turn, self.rows.len());
+        let (row, share) = place(place_of(w[0].abs(), w[1].abs(), self.squeeze), self.rows.len());
         mix_pairs(read(row), read(row + 1), share)
     }
 
@@ -81,16 +83,32 @@ impl SpecularAlbedo {
     }
 }
 
-/// The azimuth of the place `turn` in [0, 1] among the rows.
-fn azimuth_of(turn: f64, squeeze: f64) -> f64 {
-    let (s, c) = (turn * FRAC_PI_2).sin_cos();
-    s.atan2(squeeze * c)
+/// The place in [0, 1] among the rows of the azimuth of (x, y), half of it even and half of it in the stretched space: across the
+/// stretch the albedo changes within about α_y/α_x.
+fn place_of(x: f64, y: f64, squeeze: f64) -> f64 {
+    0.5 * (y.atan2(x) + (squeeze * y).atan2(x)) / FRAC_PI_2
 }
 
-/// Point `index` of [`FACETS`] in the unit square, in the middle of its cell.
-fn cell_centre(index: u32) -> [f64; 2] {
-    let point = sobol(index);
-    [0, 1].map(|axis| point[axis] + 0.5 / f64::from(FACETS))
+/// The azimuth at a place, by bisection.
+fn azimuth_of(place: f64, squeeze: f64) -> f64 {
+    let (mut below, mut above) = (0.0, FRAC_PI_2);
+    for _ in 0..52 {
+        let middle: f64 = 0.5 * (below + above);
+        if place_of(middle.cos(), middle.sin(), squeeze) < place { below = middle } else { above = middle }
+    }
+    0.5 * (below + above)
+}
+
+/// Points of the unit square with weights: Gauss's along the height of the cap of visible facets, crowded at the facets that turn away,
+/// and even round it.
+fn facet_points() -> Vec<([f64; 2], f64)> {
+    let heights = gauss_legendre(HEIGHTS).on(0.0, 1.0);
+    let turn = |k: usize| (k as f64 + 0.25) / TURNS as f64;
+    let at = |(&y, &weight): (&f64, &f64)| {
+        let rest = 1.0 - y;
+        (0..TURNS).map(move |k| ([1.0 - rest * rest, turn(k)], 2.0 * rest * weight / TURNS as f64))
+    };
+    heights.nodes.iter().zip(&heights.weights).flat_map(at).collect()
 }
 
 /// The view at a node; the horizon itself, where all facets are hidden, is left by a hair.
@@ -101,20 +119,21 @@ fn view(n_dot_v: f64, azimuth: f64) -> Vec3 {
     [across * c, across * s, z]
 }
 
-/// (scale, bias) by the visible facets: the share of their reflections that leave, G2/G1.
-fn integrated(facets: &Facets, wo: Vec3, points: &[[f64; 2]]) -> [f64; 2] {
+/// (scale, bias) by the visible facets: the share of their reflections that leave.
+fn integrated(facets: &Facets, wo: Vec3, points: &[([f64; 2], f64)]) -> [f64; 2] {
     let mut sums = [0.0; 2];
-    for &point in points {
-        let half = facets.sample(wo, point, NormalSampling::Visible);
+    for &(point, weight) in points {
+        let half = facets.sample(wo, point, SAMPLING);
         let wi = sub(scale(half, 2.0 * dot(wo, half)), wo);
         if wi[2] > 0.0 {
-            let area = facets.facing_area(wo);
-            let share = wi[2] * area / (wi[2] * area + wo[2] * facets.hidden_area(wi));
+            // V n·l over the density of wi, both divided by D.
+            let hidden = wi[2] * facets.hidden_area(wo) + wo[2] * facets.hidden_area(wi);
+            let leaving = 0.25 * wi[2] / (wo[2] * wi[2] + hidden) / facets.reflected_share(wo, half, SAMPLING);
             let schlick = schlick_weight(dot(wo, half));
-            sums = [sums[0] + share * (1.0 - schlick), sums[1] + share * schlick];
+            sums = [sums[0] + weight * leaving * (1.0 - schlick), sums[1] + weight * leaving * schlick];
         }
     }
-    sums.map(|sum| sum / points.len() as f64)
+    sums
 }
 
 #[cfg(test)]
@@ -122,13 +141,13 @@ mod tests {
     use super::*;
     use crate::FacetShape;
 
-    /// Of 1024 facets a node, against the quadrature of the isotropic tables.
-    const ACCURACY: f64 = 4e-3;
+    /// Of the facets, against the quadrature of the isotropic tables.
+    const ACCURACY: f64 = 1e-3;
 
     #[test]
     fn integrated_facets_agree_with_the_tables_where_both_apply() {
         let tables = AlbedoTables::compute();
-        let points: Vec<[f64; 2]> = (0..FACETS).map(cell_centre).collect();
+        let points = facet_points();
         for p in [0.05, 0.2, 0.5, 0.8, 1.0].map(PerceptualRoughness::clamped) {
             let table = SpecularAlbedo::isotropic(p, &tables);
             let facets = Facets::isotropic(FacetShape::Ggx, p.to_alpha());

@@ -23,11 +23,11 @@ use std::array::from_fn;
 ///     f_under = s f_sheen + (1 - max(s) E_sheen(v)) f_base
 ///     f_base  = m f_metal + (1 - m) (f_specular + (1 - t) κ f_diffuse + t κ f_transmitted)
 ///
-/// with κ of [`super::DiffuseCoupling`]. The viewer is above the surface (seen from the other side, a thin surface is the same with its
-/// normal turned); a light below it counts with transmission only.
+/// with κ of [`super::DiffuseCoupling`]. A surface that transmits is thin and the same from both sides; any other is black from below.
 ///
 /// With white colours, any compensation and a coupling that keeps energy the directional albedo is 1 ± 2e-3 for every metallic in
-/// [0, 1], and 1 ± 6e-3 with anisotropy (tests `furnace_holds_for_every_metallic`, `layers_keep_the_furnace`). Not reciprocal where a
+/// [0, 1], and 1 ± 3e-3 with anisotropy
+/// (6e-3 where one α is 400 times the other or more; tests `furnace_holds_for_every_metallic`, `layers_keep_the_furnace`). Not reciprocal where a
 /// coat, a sheen, transmission or one of the choices is not.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
@@ -58,7 +58,7 @@ struct Odds {
 }
 
 impl Material {
-    /// The material made ready to be evaluated: some microseconds; some 20 ms with anisotropy, whose albedo has no table.
+    /// The material made ready to be evaluated: some microseconds; some 30 ms with anisotropy, whose albedo has no table.
     pub fn surface(&self, tables: &AlbedoTables) -> Surface {
         let (sin, cos) = self.anisotropy_rotation.sin_cos();
         let coat_facets = Facets::isotropic(FacetShape::Ggx, self.clearcoat_perceptual_roughness.to_alpha());
@@ -74,7 +74,8 @@ impl Material {
 
 impl Bsdf for Surface {
     fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb {
-        if wo[2] <= 0.0 || wi[2] == 0.0 {
+        let Some([wo, wi]) = self.seen_from_above([wo, wi]) else { return [0.0; 3] };
+        if wi[2] == 0.0 {
             return [0.0; 3];
         }
         let (wo, wi) = (self.turned(wo), self.turned(wi));
@@ -90,19 +91,21 @@ impl Bsdf for Surface {
     }
 
     fn sample(&self, wo: Vec3, u: [f64; 3]) -> Option<BsdfSample> {
-        let odds = self.odds(wo)?;
-        let (turned, square) = (self.turned(wo), [u[0], u[1]]);
+        let [above] = self.seen_from_above([wo])?;
+        let odds = self.odds(above);
+        let (turned, square) = (self.turned(above), [u[0], u[1]]);
         let wi = match u[2] {
-            x if x < odds.coat => self.coat.as_ref()?.lobe.sample(wo, square)?,
+            x if x < odds.coat => self.coat.as_ref()?.lobe.sample(above, square)?,
             x if x < odds.coat + odds.specular => self.turned_back(self.base.lobe().sample(turned, square)?),
             x if x < 1.0 - odds.wide => mirrored(self.turned_back(self.base.lobe().sample(turned, square)?)),
             _ => CosineHemisphere.sample(square),
         };
-        BsdfSample::at(self, wo, wi)
+        BsdfSample::at(self, wo, if wo[2] < 0.0 { mirrored(wi) } else { wi })
     }
 
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f64 {
-        let Some(odds) = self.odds(wo) else { return 0.0 };
+        let Some([wo, wi]) = self.seen_from_above([wo, wi]) else { return 0.0 };
+        let odds = self.odds(wo);
         let turned = self.turned(wo);
         if wi[2] < 0.0 {
             return odds.transmitted * self.base.lobe().pdf(turned, self.turned(mirrored(wi)));
@@ -113,11 +116,16 @@ impl Bsdf for Surface {
 }
 
 impl Surface {
-    /// `None` where the viewer is not above the surface.
-    fn odds(&self, wo: Vec3) -> Option<Odds> {
-        if wo[2] <= 0.0 {
-            return None;
+    /// The directions, the viewer's first, as they are if it is above the surface; mirrored if it is below a thin one.
+    fn seen_from_above<const N: usize>(&self, directions: [Vec3; N]) -> Option<[Vec3; N]> {
+        match directions[0][2] {
+            z if z > 0.0 => Some(directions),
+            z if z < 0.0 && self.base.transmits() => Some(directions.map(mirrored)),
+            _ => None,
         }
+    }
+
+    fn odds(&self, wo: Vec3) -> Odds {
         let turned = self.turned(wo);
         let (coat, sheen, base) = (self.coat_albedo(wo), self.sheen_albedo(wo[2]), self.base.shares(turned));
         let (under_coat, through) = (1.0 - coat, (1.0 - coat) * (1.0 - sheen));
@@ -127,7 +135,7 @@ impl Surface {
         let scale = if sum > 0.0 { 1.0 / sum } else { 0.0 };
         let (coat, specular) = (coat * scale, through * base.specular * scale);
         let transmitted = through * base.transmitted * scale;
-        Some(Odds { coat, specular, transmitted, wide: (1.0 - coat - specular - transmitted).max(0.0) })
+        Odds { coat, specular, transmitted, wide: (1.0 - coat - specular - transmitted).max(0.0) }
     }
 
     fn coat_albedo(&self, wo: Vec3) -> f64 {

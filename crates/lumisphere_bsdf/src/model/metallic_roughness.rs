@@ -118,14 +118,18 @@ fn claims(values: &[f64]) -> Claims {
 
 fn reciprocity(material: &Material) -> Reciprocity {
     let dielectric = material.metallic < 1.0;
+    // A mirror loses nothing that a compensation could add.
+    let rough = material.perceptual_roughness.value() > 0.0;
     let one_sided = [
         material.sheen_color[0] > 0.0,
         material.clearcoat > 0.0,
         dielectric && material.transmission > 0.0,
-        dielectric && matches!(material.coupling, DiffuseCoupling::ViewAlbedo | DiffuseCoupling::RoughnessAwareFresnel),
-        // A mirror loses nothing that its lobe would be scaled for.
-        material.compensation == Compensation::Turquin && material.perceptual_roughness.value() > 0.0,
-        material.compensation == Compensation::FdezAguera,
+        dielectric && material.coupling == DiffuseCoupling::ViewAlbedo,
+        // On a surface this rough F_ss is F0 from every view.
+        dielectric
+            && material.coupling == DiffuseCoupling::RoughnessAwareFresnel
+            && 1.0 - material.perceptual_roughness.value() > material.dielectric_f0()[0],
+        rough && matches!(material.compensation, Compensation::Turquin | Compensation::FdezAguera),
     ];
     if one_sided.contains(&true) { Reciprocity::Broken } else { Reciprocity::Exact }
 }

@@ -4,11 +4,17 @@
 //! The proofs (tests `proofs_*`) run over the table, so that they apply to a new line by themselves: sampler against pdf, weight
 //! against f cos / pdf, reciprocity, positivity, and the furnace from both sides, each held against what the model claims here.
 
+mod beckmann;
 mod blinn_phong;
 mod burley;
 mod burley_renormalised;
+mod charlie;
+mod conductor;
+mod cook_torrance;
 mod diffuse;
 mod eon;
+mod facet_parameters;
+mod ggx;
 mod highlight;
 mod lambert;
 mod metallic_roughness;
@@ -17,12 +23,14 @@ mod oren_nayar_improved;
 mod oren_nayar_vector;
 mod phong;
 mod power_cosine;
+mod rough_dielectric;
 mod table;
 mod values;
 
 pub use blinn_phong::BlinnPhong;
 pub use burley::Burley;
 pub use burley_renormalised::BurleyRenormalised;
+pub use charlie::{Charlie, HemisphereSampling};
 pub use eon::Eon;
 pub use highlight::Normalisation;
 pub use lambert::Lambert;

@@ -1,8 +1,8 @@
 //! The table of models.
 
 use super::{
-    Model, blinn_phong, burley, burley_renormalised, eon, lambert, metallic_roughness, oren_nayar, oren_nayar_improved,
-    oren_nayar_vector, phong,
+    Model, beckmann, blinn_phong, burley, burley_renormalised, charlie, conductor, cook_torrance, eon, ggx, lambert,
+    metallic_roughness, oren_nayar, oren_nayar_improved, oren_nayar_vector, phong, rough_dielectric,
 };
 
 /// Every model, diffuse ones first.
@@ -16,5 +16,11 @@ pub const MODELS: &[&Model] = &[
     &burley_renormalised::MODEL,
     &phong::MODEL,
     &blinn_phong::MODEL,
+    &cook_torrance::MODEL,
+    &beckmann::MODEL,
+    &ggx::MODEL,
+    &conductor::MODEL,
+    &charlie::MODEL,
+    &rough_dielectric::MODEL,
     &metallic_roughness::MODEL,
 ];
