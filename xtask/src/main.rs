@@ -1,4 +1,4 @@
-//! The project's own checks and benchmarks: `cargo xtask test`, `test-engines`, `arrows`, `bench-peers`.
+//! The project's own checks and benchmarks: `cargo xtask test`, `test-engines`, `test-mitsuba`, `arrows`, `bench-peers`.
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for developers talks to them
 
 mod arrows;
@@ -6,6 +6,7 @@ mod bench_peers;
 mod checks;
 mod engines;
 mod findings;
+mod mitsuba;
 mod workspace;
 
 use anyhow::{Result, bail};
@@ -18,6 +19,7 @@ Usage: cargo xtask COMMAND
   test-engines [--baked DIR] [--only CASE]
                            load our targets in three.js, Babylon.js, Filament and Bevy, and compare their pictures with
                            predictions; --baked: files of DIR/ENVIRONMENT/TARGET/ instead of baking
+  test-mitsuba             hold our reflectance models against Mitsuba 3, installed from PyPI into target/mitsuba
   arrows                   hold the dependencies between the crates against the table
   bench-peers [--scaling]  compare `lumisphere bake` with cmgen; --scaling: time against sizes";
 
@@ -43,6 +45,7 @@ fn run(words: &[&str]) -> Result<ExitCode> {
         ["test"] => checks::run(checks::Extent::All)?,
         ["test", "--quick"] => checks::run(checks::Extent::Quick)?,
         ["test-engines", choice @ ..] => engines::run(&engines::Choice::parse(choice)?)?,
+        ["test-mitsuba"] => mitsuba::run()?,
         ["arrows"] => arrows::run()?,
         ["bench-peers"] => bench_peers::compare()?,
         ["bench-peers", "--scaling"] => bench_peers::scaling()?,

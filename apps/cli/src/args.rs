@@ -7,7 +7,7 @@ use crate::choices::{
 };
 use crate::values::{
     LowerHemisphere, Repair, RoughnessList, YawPitchRoll, parse_bytes, parse_face_size, parse_finite, parse_positive,
-    parse_turn, parse_unit,
+    parse_turn, parse_unit, parse_view,
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lumisphere::sphere::AxisTurn;
@@ -35,6 +35,7 @@ pub(crate) enum Command {
     Formats(FormatsArgs),
     Inspect(InspectArgs),
     Verify(VerifyArgs),
+    Brdf(BrdfArgs),
     /// Print shell completions
     Completions {
         /// The shell
@@ -43,7 +44,7 @@ pub(crate) enum Command {
     /// Print a manual page (roff): `lumisphere man bake | man -l -`
     Man {
         /// The command whose page to print; without one, the page of `lumisphere` itself
-        #[arg(value_parser = ["bake", "targets", "convert", "formats", "inspect", "verify", "completions", "man"])]
+        #[arg(value_parser = ["bake", "targets", "convert", "formats", "inspect", "verify", "brdf", "completions", "man"])]
         command: Option<String>,
     },
 }
@@ -368,4 +369,41 @@ pub(crate) enum HoldsChoice {
     FormFactor,
     /// The environment itself
     Skybox,
+}
+
+/// Draw a reflectance model, or print its numbers
+///
+/// The picture shows f cos in the plane of incidence for several views, the directional albedo, and a lit ball.
+#[derive(Debug, Args)]
+pub(crate) struct BrdfArgs {
+    /// The model; --list lists them
+    #[arg(value_name = "MODEL", required_unless_present_any = ["list", "compare", "thumbnails"])]
+    pub model: Option<String>,
+    /// Parameters that are not to be at their defaults
+    #[arg(value_name = "NAME=VALUE")]
+    pub parameters: Vec<String>,
+    /// The picture, .svg or .png [default: brdf-<MODEL>.svg]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Draw these models over MODEL, each NAME or NAME:PARAMETER=VALUE:PARAMETER=VALUE
+    #[arg(long, value_name = "MODEL,MODEL", value_delimiter = ',')]
+    pub compare: Vec<String>,
+    /// Angles of view from the normal, from 0 to below 90 [default: 0,30,60,80; more in the table]
+    #[arg(long, value_name = "DEGREES", value_delimiter = ',', value_parser = parse_view)]
+    pub view: Vec<f64>,
+    /// Print albedo, peaks and claims instead of drawing
+    #[arg(long)]
+    pub table: bool,
+    /// The table or the list as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+    /// List all models with their parameters
+    #[arg(long, conflicts_with_all = ["model", "compare", "output", "page"])]
+    pub list: bool,
+    /// Print the page of the model: equation, source, ranges
+    #[arg(long, conflicts_with_all = ["compare", "output", "table", "json"])]
+    pub page: bool,
+    /// Write the small plot of every model into a folder
+    #[arg(long, value_name = "DIR", hide = true)]
+    pub thumbnails: Option<PathBuf>,
 }

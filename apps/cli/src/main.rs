@@ -3,6 +3,7 @@
 mod args;
 mod bake_command;
 mod bake_environment;
+mod brdf;
 mod builtin_source;
 mod choices;
 mod convert_command;
@@ -82,6 +83,7 @@ fn run(command: Command) -> Result<ExitCode> {
                 return Ok(ExitCode::from(OVER_CONTRACT));
             }
         }
+        Command::Brdf(args) => brdf::run(&args)?,
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "lumisphere", &mut text);

@@ -138,6 +138,12 @@ pub(crate) fn parse_positive(text: &str) -> Result<f64, String> {
     number(text).filter(|n| *n > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
 }
 
+/// Degrees between a surface's normal and the viewer.
+pub(crate) fn parse_view(text: &str) -> Result<f64, String> {
+    let angle = number(text).filter(|a| (0.0..90.0).contains(a));
+    angle.ok_or_else(|| "expected an angle from 0 to below 90 degrees".to_owned())
+}
+
 /// Texels along the side of a face.
 pub(crate) fn parse_face_size(text: &str) -> Result<usize, String> {
     const LARGEST: usize = 8192;

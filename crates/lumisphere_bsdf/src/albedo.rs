@@ -30,6 +30,9 @@ const MAX_DEPTH: u32 = 10;
 const FIRST_INTERVAL: f64 = 4.0;
 /// The finest scale of an angle: α = 1e-6 at n·v = 1e-4 is 1e-10 wide.
 const FINEST: f64 = 1e-11;
+/// The narrowest layer at the horizon that is looked at on its own, and the ratio of the next.
+const NARROWEST_LAYER: f64 = 1e-4;
+const LAYER_STEP: f64 = 8.0;
 /// Samples that propose the peak of a lobe.
 const PROPOSALS: u32 = 256;
 
@@ -170,7 +173,7 @@ impl HalfSpace<'_> {
         let [x, y, z] = self.peak.wi;
         // A lobe that holds all the light at most is no wider than 1 one way, and so no narrower than this the other.
         let finest = (0.1 / self.peak.height).clamp(FINEST, 1.0);
-        let rings = Grading { centre: x.atan2(y.hypot(z)), finest };
+        let rings = Grading { centre: x.atan2(y.hypot(z)), finest, layer: 1.0 };
         rings.integrate(&self.nodes, TOLERANCE, &|psi, slopes| {
             std::array::from_fn(|i| self.ring(psi[i], slopes[i], finest))
         })
@@ -181,7 +184,7 @@ impl HalfSpace<'_> {
         let (sin_psi, cos_psi) = psi.sin_cos();
         let scale = slope * cos_psi * cos_psi;
         let sin_centre = (self.peak.wi[1] / cos_psi).clamp(-1.0, 1.0);
-        let grading = Grading { centre: sin_centre.asin(), finest };
+        let grading = Grading { centre: sin_centre.asin(), finest, layer: self.wo[2].abs() };
         grading.integrate(&self.nodes, INNER * TOLERANCE, &|chi, slopes| {
             let mut directions = [[0.0; 3]; 15];
             let mut weights = [0.0; 15];
@@ -202,6 +205,8 @@ impl HalfSpace<'_> {
 struct Grading {
     centre: f64,
     finest: f64,
+    /// How near the ends f may still change: masking and rough diffuse models do over n·l about n·v.
+    layer: f64,
 }
 
 /// Gauss and Kronrod's rules of 7 and 15 nodes, as [`kronrod_pair`] gives them.
@@ -213,9 +218,17 @@ type Integrand<'a> = dyn Fn(&[f64; 15], &[f64; 15]) -> [Rgb; 15] + 'a;
 impl Grading {
     /// ∫ f over the whole range.
     fn integrate(&self, nodes: &Pair, tolerance: f64, f: &Integrand) -> Rgb {
-        let ends = [-FRAC_PI_2, FRAC_PI_2].map(|end| ((end - self.centre) / self.finest).asinh());
+        let t_of = |angle: f64| ((angle - self.centre) / self.finest).asinh();
+        let mut edges = vec![t_of(-FRAC_PI_2), 0.0, t_of(FRAC_PI_2)];
+        let mut depth = self.layer.max(NARROWEST_LAYER);
+        while depth < 0.5 {
+            edges.extend([t_of(depth - FRAC_PI_2), t_of(FRAC_PI_2 - depth)]);
+            depth *= LAYER_STEP;
+        }
+        edges.sort_by(f64::total_cmp);
         let mut sum = [0.0; 3];
-        for (from, to) in [(ends[0].min(0.0), 0.0), (0.0, ends[1].max(0.0))] {
+        for ends in edges.windows(2) {
+            let (from, to) = (ends[0], ends[1]);
             let count = ((to - from) / FIRST_INTERVAL).ceil();
             let edge = |i: f64| from + (to - from) * i / count;
             for i in 0..count as u32 {

@@ -11,7 +11,7 @@ use proofs::{Subject, cube, ensure, prove_of, rounding, subjects};
 const PAIRS: usize = 400;
 
 /// By how much a model that claims not to be reciprocal is off for some pair.
-const BROKEN: f64 = 1e-3;
+const BROKEN: f64 = 0.01;
 
 /// f(wo, wi) over the square of the index on the side of `wo`: what stays when the two are exchanged
 /// (B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, equation 21 and section 4.2;
@@ -62,16 +62,23 @@ fn models_are_reciprocal_to_rounding() {
 
 #[test]
 fn models_that_say_so_are_not_reciprocal() {
-    for subject in claiming(|claim| claim == Reciprocity::Broken) {
-        let ratio = |wo: Vec3, wi: Vec3| {
-            let (there, back) = (subject.bsdf.eval(wo, wi)[0], subject.bsdf.eval(wi, wo)[0]);
-            (there - back).abs() / there.max(back).max(f64::MIN_POSITIVE)
-        };
-        let views = subject.views();
-        let off = views.iter().flat_map(|&wo| pairs(&subject, wo).into_iter().map(move |wi| ratio(wo, wi)));
-        let worst = off.fold(0.0, f64::max);
-        assert!(worst > BROKEN, "{}: reciprocal to {worst}, and says that it is not", subject.name());
-    }
+    let wrong: Vec<String> = claiming(|claim| claim == Reciprocity::Broken)
+        .iter()
+        .map(|subject| (subject, worst_exchange(subject)))
+        .filter(|(_, worst)| *worst <= BROKEN)
+        .map(|(subject, worst)| format!("{}: reciprocal to {worst}, and says that it is not", subject.name()))
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The largest relative difference of f(wo, wi) and f(wi, wo).
+fn worst_exchange(subject: &Subject) -> f64 {
+    let off = |wo: Vec3, wi: Vec3| {
+        let (there, back) = (subject.bsdf.eval(wo, wi)[0], subject.bsdf.eval(wi, wo)[0]);
+        (there - back).abs() / there.max(back).max(f64::MIN_POSITIVE)
+    };
+    let of_view = |wo: Vec3| pairs(subject, wo).into_iter().map(move |wi| off(wo, wi)).fold(0.0, f64::max);
+    subject.views().into_iter().map(of_view).fold(0.0, f64::max)
 }
 
 #[test]

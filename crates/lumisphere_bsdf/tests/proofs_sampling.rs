@@ -14,7 +14,7 @@ const SIGNIFICANCE: f64 = 1e-3;
 const TESTS: usize = 10_000;
 
 /// Samples that show where cells are needed.
-const PILOT_SAMPLES: usize = 16_000;
+const PILOT_SAMPLES: usize = 32_000;
 
 /// Samples that are counted. A density that is off by 5 % both ways exceeds the statistic's spread twenty times over.
 const SAMPLES: usize = 200_000;
@@ -22,8 +22,8 @@ const SAMPLES: usize = 200_000;
 /// Cells of the sphere: 800 samples in each.
 const CELLS: usize = 256;
 
-/// Of the integral of a density, by quadrature (measured: see the tests of `SampleCells`).
-const QUADRATURE: f64 = 1e-4;
+/// Of the integral of a density by quadrature: what is peaked where none of the pilot samples is, a few times 1/32000.
+const QUADRATURE: f64 = 3e-4;
 
 fn test(bsdf: &dyn Bsdf, wo: Vec3, mut random: Random) -> ChiSquareReport {
     let mut sample = || bsdf.sample(wo, cube(&mut random)).map(|sample| sample.wi);
@@ -140,9 +140,10 @@ fn widths_that_are_off_are_found() {
         Some(Subject::new(model, values, &tables))
     };
     let wo = proofs::direction(40.0, 0.6);
+    // A fifth: the lobe may have but a twenty-fifth of the samples. (Of all samples 3 % of α are found: tests of `SampleCells`.)
     let mirror = [-wo[0], -wo[1], wo[2]];
     let mut found = 0;
-    for (right, wrong) in MODELS.iter().filter_map(|model| Some((at(model, 0.3)?, at(model, 0.31)?))) {
+    for (right, wrong) in MODELS.iter().filter_map(|model| Some((at(model, 0.3)?, at(model, 0.36)?))) {
         // Where the sampler does not follow the parameter there is nothing to find.
         let follows = right.bsdf.pdf(wo, mirror) != wrong.bsdf.pdf(wo, mirror);
         let verdict = |sampler: &Subject, density: &Subject| {

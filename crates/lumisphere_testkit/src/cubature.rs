@@ -9,8 +9,11 @@ const WEIGHTS_7: [f64; 5] = [-3816.0 / 19683.0, 980.0 / 6561.0, 1020.0 / 19683.0
 /// Weights of degree 5 for the same points but the last.
 const WEIGHTS_5: [f64; 4] = [-971.0 / 729.0, 245.0 / 486.0, 65.0 / 1458.0, 25.0 / 729.0];
 
-/// A rectangle with so many of the leading points in it is divided whatever the rule says of it.
-const POINTS_A_RECTANGLE: usize = 4;
+/// A rectangle with more of the probes in it is divided whatever the rule says of it.
+const PROBES_A_RECTANGLE: usize = 4;
+
+/// So many times the mean that the rule finds, a probe shows a peak that the rule has not seen.
+const PEAK: f64 = 8.0;
 
 /// Divisions one inside the other; an axis of length 1 is then cut below its last bit.
 const DEPTH: usize = 100;
@@ -38,65 +41,85 @@ impl Rectangle {
         [below, above]
     }
 
+    fn area(&self) -> f64 {
+        self.side(0) * self.side(1)
+    }
+
     fn side(&self, axis: usize) -> f64 {
         self.max[axis] - self.min[axis]
     }
 }
 
-/// ∫ f over the rectangle. `points` lie in it, drawn about as f is; their order changes. They find peaks that are much narrower
-/// than the rectangle, which no fixed rule would meet.
+/// A point of the rectangle and f there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Probe {
+    pub(crate) at: [f64; 2],
+    pub(crate) value: f64,
+}
+
+/// ∫ f over the rectangle. `probes` lie in it, drawn about as f is; their order changes. They find peaks and ridges that are much
+/// narrower than the rectangle, which no fixed rule would meet.
 pub(crate) fn integrate(
     f: &impl Fn([f64; 2]) -> f64,
     rectangle: Rectangle,
-    points: &mut [[f64; 2]],
+    probes: &mut [Probe],
     tolerance: Tolerance,
 ) -> f64 {
-    refine(f, rectangle, points, tolerance, DEPTH)
+    refine(f, rectangle, probes, tolerance, DEPTH)
 }
 
 fn refine(
     f: &impl Fn([f64; 2]) -> f64,
     rectangle: Rectangle,
-    points: &mut [[f64; 2]],
+    probes: &mut [Probe],
     tolerance: Tolerance,
     depth: usize,
 ) -> f64 {
-    let axis = if points.len() > POINTS_A_RECTANGLE && depth > 0 {
-        crowded_axis(rectangle, points)
-    } else {
-        let rule = genz_malik(f, rectangle);
-        let enough = (tolerance.relative * rule.value.abs()).max(tolerance.absolute);
-        if rule.error <= enough || depth == 0 {
-            return rule.value;
+    let peak = probes.iter().copied().max_by(|a, b| a.value.total_cmp(&b.value));
+    let axis = match peak {
+        Some(peak) if probes.len() > PROBES_A_RECTANGLE && depth > 0 => narrow_axis(f, rectangle, peak),
+        _ => {
+            let rule = genz_malik(f, rectangle);
+            let enough = (tolerance.relative * rule.value.abs()).max(tolerance.absolute);
+            let unseen = |peak: &Probe| peak.value * rectangle.area() > PEAK * rule.value.abs() + tolerance.absolute;
+            match peak.filter(unseen) {
+                _ if depth == 0 => return rule.value,
+                Some(peak) => narrow_axis(f, rectangle, peak),
+                None if rule.error <= enough => return rule.value,
+                None => rule.rough_axis,
+            }
         }
-        rule.rough_axis
     };
     let middle = 0.5 * (rectangle.min[axis] + rectangle.max[axis]);
     let [below, above] = rectangle.cut(axis, middle);
-    let (low, high) = split(points, axis, middle);
+    let (low, high) = split(probes, |probe| probe.at[axis] < middle);
     refine(f, below, low, tolerance, depth - 1) + refine(f, above, high, tolerance, depth - 1)
 }
 
-/// The points below `at`, which are moved to the front, and the others.
-pub(crate) fn split(points: &mut [[f64; 2]], axis: usize, at: f64) -> (&mut [[f64; 2]], &mut [[f64; 2]]) {
-    let mut below = 0;
-    for i in 0..points.len() {
-        if points[i][axis] < at {
-            points.swap(i, below);
-            below += 1;
-        }
-    }
-    points.split_at_mut(below)
+/// The axis along which f falls more from a peak over an eighth of the rectangle; the longer one where it falls alike.
+fn narrow_axis(f: &impl Fn([f64; 2]) -> f64, rectangle: Rectangle, peak: Probe) -> usize {
+    let fallen = |axis: usize| {
+        let mut at = peak.at;
+        let step = 0.125 * rectangle.side(axis);
+        // Inwards, so that it stays in the rectangle.
+        at[axis] += if at[axis] - rectangle.min[axis] > step { -step } else { step };
+        f(at)
+    };
+    let (first, second) = (fallen(0), fallen(1));
+    let alike = (first - second).abs() <= 0.1 * first.max(second);
+    if alike { usize::from(rectangle.side(1) > rectangle.side(0)) } else { usize::from(second < first) }
 }
 
-/// The axis of which the points leave more unused.
-fn crowded_axis(rectangle: Rectangle, points: &[[f64; 2]]) -> usize {
-    let used = |axis: usize| {
-        let (low, high) =
-            points.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p[axis]), high.max(p[axis])));
-        (high - low) / rectangle.side(axis)
-    };
-    usize::from(used(1) < used(0))
+/// The items that hold, which are moved to the front, and the others.
+pub(crate) fn split<T>(items: &mut [T], holds: impl Fn(&T) -> bool) -> (&mut [T], &mut [T]) {
+    let mut front = 0;
+    for i in 0..items.len() {
+        if holds(&items[i]) {
+            items.swap(i, front);
+            front += 1;
+        }
+    }
+    items.split_at_mut(front)
 }
 
 struct Applied {
@@ -153,13 +176,37 @@ mod tests {
         let (x0, y0, width) = (0.123_456, 0.654_321, 1e-6);
         let needle = |[x, y]: [f64; 2]| (-((x - x0) / width).powi(2) - ((y - y0) / width).powi(2)).exp();
         let unit = Rectangle { min: [0.0; 2], max: [1.0; 2] };
-        let mut points: Vec<[f64; 2]> = (0..100)
-            .map(|i| [x0 + width * 0.1 * (f64::from(i) * 0.7).sin(), y0 + width * 0.1 * f64::from(i).cos()])
-            .collect();
         let truth = std::f64::consts::PI * width * width;
         let scaled = |p: [f64; 2]| needle(p) / truth;
-        assert!((integrate(&scaled, unit, &mut points, FINE) - 1.0).abs() < 1e-7);
+        let probe = |at: [f64; 2]| Probe { at, value: scaled(at) };
+        let near = |i: i32| {
+            let spread = 0.1 * width;
+            probe([x0 + spread * (0.7 * f64::from(i)).sin(), y0 + spread * f64::from(i).cos()])
+        };
+        let mut probes: Vec<Probe> = (0..100).map(near).collect();
+        assert!((integrate(&scaled, unit, &mut probes, FINE) - 1.0).abs() < 1e-7);
+        // One is enough.
+        assert!((integrate(&scaled, unit, &mut probes[..1], FINE) - 1.0).abs() < 1e-7);
         assert_eq!(integrate(&scaled, unit, &mut [], FINE), 0.0, "no fixed rule meets the needle");
+    }
+
+    #[test]
+    fn a_ridge_on_a_plain_is_found() {
+        let width = 1e-6;
+        let f = |[x, y]: [f64; 2]| {
+            let across = (x - 0.123_456) / width;
+            1.0 + (1.0 + y) * (-across * across).exp() / width
+        };
+        let unit = Rectangle { min: [0.0; 2], max: [1.0; 2] };
+        let probe = |at: [f64; 2]| Probe { at, value: f(at) };
+        // Most of them on the plain, few on the ridge.
+        let plain = (0..1000).map(|i| probe([f64::from(i) / 1000.0, f64::from(i * 271 % 1000) / 1000.0]));
+        let ridge =
+            (0..20).map(|i| probe([0.123_456 + 0.05 * width * f64::from(i - 10), f64::from(i * 7 % 20) / 20.0]));
+        let mut probes: Vec<Probe> = plain.chain(ridge).collect();
+        let truth = 1.0 + 1.5 * std::f64::consts::PI.sqrt();
+        let found = integrate(&f, unit, &mut probes, FINE);
+        assert!((found - truth).abs() < 1e-6, "{found} {truth}");
     }
 
     #[test]

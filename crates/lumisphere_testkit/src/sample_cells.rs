@@ -8,12 +8,15 @@
 //! lobe that is narrow that way is a line of θ.
 
 use crate::chi_square::{ChiSquareReport, compare};
-use crate::cubature::{Rectangle, Tolerance, integrate, split};
+use crate::cubature::{Probe, Rectangle, Tolerance, integrate, split};
 use lumisphere_sphere::Vec3;
 use std::f64::consts::{PI, TAU};
 
 /// Integrals are to about 1e-5 of the whole: a tenth of the standard deviation of a cell's count at 1e6 samples.
 const TOLERANCE: Tolerance = Tolerance { relative: 1e-4, absolute: 1e-8 };
+
+/// The share of the directions, as a divisor, that may be a ridge.
+const RIDGE: usize = 100;
 
 /// A partition of the sphere; see the module.
 #[derive(Debug, Clone)]
@@ -58,7 +61,7 @@ impl SampleCells {
         let this = self.nodes.len();
         self.nodes.push(Node::Cut { axis, at, above: 0 });
         let [low, high] = rectangle.cut(axis, at);
-        let (below, above) = split(points, axis, at);
+        let (below, above) = split(points, |point| point[axis] < at);
         self.grow(low, below, 1 - axis, capacity);
         self.nodes[this] = Node::Cut { axis, at, above: self.nodes.len() };
         self.grow(high, above, 1 - axis, capacity);
@@ -99,7 +102,10 @@ impl SampleCells {
     /// ∫ f dω over each cell, to about 1e-5 in all where ∫ f is about 1, for an f that is large only near the directions learnt.
     pub fn integrals(&self, f: impl Fn(Vec3) -> f64) -> Vec<f64> {
         let on_angles = |at: [f64; 2]| at[0].sin() * f(self.angles.direction(at));
-        let of_cell = |cell: &Cell| integrate(&on_angles, cell.rectangle, &mut cell.points.clone(), TOLERANCE);
+        let of_cell = |cell: &Cell| {
+            let mut probes: Vec<Probe> = cell.points.iter().map(|&at| Probe { at, value: on_angles(at) }).collect();
+            integrate(&on_angles, cell.rectangle, &mut probes, TOLERANCE)
+        };
         self.cells.iter().map(of_cell).collect()
     }
 
@@ -130,13 +136,13 @@ struct Angles {
 }
 
 impl Angles {
-    /// About the one of x and y that varies less.
+    /// About the one of x and y in which the densest part of the directions lie closer together.
     fn along_ridge(directions: &[Vec3]) -> Self {
         let spread = |axis: usize| {
             let mut values: Vec<f64> = directions.iter().map(|d| d[axis]).collect();
             values.sort_by(f64::total_cmp);
-            // Quartiles: few samples may be anywhere.
-            values.get(values.len() * 3 / 4).zip(values.get(values.len() / 4)).map_or(0.0, |(high, low)| high - low)
+            let across = values.windows(values.len() / RIDGE + 1).map(|window| window[window.len() - 1] - window[0]);
+            across.fold(f64::INFINITY, f64::min)
         };
         Self { axis: usize::from(spread(1) < spread(0)) }
     }

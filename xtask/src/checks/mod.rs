@@ -5,7 +5,7 @@ mod readme_commands;
 mod readme_proofs;
 
 use crate::findings::Findings;
-use crate::{arrows, engines, workspace};
+use crate::{arrows, engines, mitsuba, workspace};
 use anyhow::{Context, Result};
 use std::io::Write;
 use std::process::Command;
@@ -66,6 +66,7 @@ fn steps(extent: Extent) -> Vec<Step> {
             },
             Step { name: "README", check: Check::Function(readme::check) },
             Step { name: "engines", check: Check::Function(engines::check) },
+            Step { name: "Mitsuba", check: Check::Function(mitsuba::check) },
         ]),
     }
     steps

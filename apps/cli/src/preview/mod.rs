@@ -2,9 +2,9 @@
 
 mod canvas;
 mod label;
-mod panorama;
-mod sphere;
-mod tone;
+pub(crate) mod panorama;
+pub(crate) mod sphere;
+pub(crate) mod tone;
 
 use anyhow::Result;
 use canvas::Canvas;

@@ -3,17 +3,18 @@
 use super::tone::Display;
 use lumisphere::image::Rgb;
 use lumisphere::sphere::Vec3;
+use rayon::prelude::*;
 
 /// A square picture of a ball that fills it, on a background of display values.
 ///
 /// `radiance` gives the light that leaves the ball at a normal towards the camera; it is asked `samples`² times a pixel. The
-/// edge is smooth by the distance of the pixel's centre from it.
+/// edge is smooth by the distance of the pixel's centre from it. Pixels are drawn in parallel.
 pub(crate) fn draw(
     size: usize,
     samples: usize,
     display: &Display,
     background: Rgb,
-    radiance: impl Fn(Vec3) -> Rgb,
+    radiance: impl Fn(Vec3) -> Rgb + Sync,
 ) -> Vec<[u8; 3]> {
     let radius = 0.5 * size as f64;
     let pixel = |index: usize| {
@@ -32,7 +33,7 @@ pub(crate) fn draw(
         let shown = display.linear(sum.map(|s| s / (samples * samples) as f32));
         display.encode(std::array::from_fn(|c| coverage * shown[c] + (1.0 - coverage) * background[c]))
     };
-    (0..size * size).map(pixel).collect()
+    (0..size * size).into_par_iter().map(pixel).collect()
 }
 
 /// The normal at a place in the disc, that of the rim beyond it.

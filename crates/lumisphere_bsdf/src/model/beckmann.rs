@@ -19,8 +19,9 @@
 //! Source: P. Beckmann and A. Spizzichino, *The Scattering of Electromagnetic Waves from Rough Surfaces*, 1963, as in B. Walter et al.,
 //! EGSR 2007, eq. 25; E. Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014, eq. 67, 80,
 //! 83 and 99.
+#![doc = include_str!("../../plots/beckmann.svg")]
 
-use super::facet_parameters::{ANISOTROPY, F0, PERCEPTUAL_ROUGHNESS, SAMPLING, sampling};
+use super::facet_parameters::{ANISOTROPY, F0, SAMPLING, STRETCHED_ROUGHNESS, sampling};
 use super::{Claims, Energy, Model, Parameter, Range, Reciprocity, Sides};
 use crate::{FacetShape, Facets, Fresnel, Masking, Microfacet, PerceptualRoughness};
 
@@ -29,7 +30,7 @@ pub(crate) const MODEL: Model = Model {
     name: "beckmann",
     title: "Beckmann: rough mirror with Gaussian slopes",
     parameters: &[
-        PERCEPTUAL_ROUGHNESS,
+        STRETCHED_ROUGHNESS,
         ANISOTROPY,
         F0,
         Parameter {

@@ -30,6 +30,7 @@
 //!
 //! Source: J. F. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977; the factors: F. Giesen's
 //! derivation of the normalisation of Phong and Blinn-Phong, 2009.
+#![doc = include_str!("../../plots/blinn-phong.svg")]
 
 use super::Model;
 use super::highlight::{Factors, LEAST_COSINE, Normalisation, PARAMETERS};

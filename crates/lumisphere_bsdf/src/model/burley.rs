@@ -15,6 +15,7 @@
 //! cos² θ_d is computed as (1 + v·l)/2, which needs no half vector. Sampled by the cosine.
 //!
 //! Source: B. Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 course notes, section 5.3.
+#![doc = include_str!("../../plots/burley.svg")]
 
 use super::diffuse::{ALBEDO, GAIN, pdf_cosine, sample_cosine};
 use super::{Claims, Energy, Model, Parameter, Range, Reciprocity, Sides};

@@ -16,6 +16,7 @@
 //!
 //! Source: S. Lagarde and C. de Rousiers, "Moving Frostbite to Physically Based Rendering", SIGGRAPH 2014 course notes, listing 1;
 //! the model as at `burley`.
+#![doc = include_str!("../../plots/burley-renormalised.svg")]
 
 use super::burley::{HorizonShape, PERCEPTUAL_ROUGHNESS};
 use super::diffuse::{ALBEDO, pdf_cosine, sample_cosine};

@@ -17,6 +17,7 @@
 //!
 //! Source: A. C. Estevez and C. Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH course 2017, eq. 2 and 3; D. Neubelt and
 //! M. Pettineo, "Crafting a Next-Gen Material Pipeline for The Order: 1886", SIGGRAPH course 2013.
+#![doc = include_str!("../../plots/charlie.svg")]
 
 use super::facet_parameters::{GAIN, GRAZING, PERCEPTUAL_ROUGHNESS};
 use super::{Claims, Energy, Model, Parameter, Range, Reciprocity, Sides};

@@ -17,8 +17,9 @@
 //! scattering. Reciprocal.
 //!
 //! Source: M. Born and E. Wolf, *Principles of Optics*, chapter 14; for D and V the page of `ggx`.
+#![doc = include_str!("../../plots/conductor.svg")]
 
-use super::facet_parameters::{ANISOTROPY, PERCEPTUAL_ROUGHNESS};
+use super::facet_parameters::{ANISOTROPY, STRETCHED_ROUGHNESS};
 use super::{Claims, Energy, Model, Parameter, Range, Reciprocity, Sides};
 use crate::{FacetShape, Facets, Fresnel, Masking, Microfacet, NormalSampling, PerceptualRoughness};
 
@@ -27,7 +28,7 @@ pub(crate) const MODEL: Model = Model {
     name: "conductor",
     title: "Rough metal: GGX with the exact Fresnel factor",
     parameters: &[
-        PERCEPTUAL_ROUGHNESS,
+        STRETCHED_ROUGHNESS,
         ANISOTROPY,
         Parameter {
             name: "n",

@@ -17,6 +17,7 @@
 //!
 //! Source: R. L. Cook and K. E. Torrance, "A Reflectance Model for Computer Graphics", ACM TOG 1(1), 1982; B. Walter et al., EGSR 2007,
 //! eq. 20 for the 4.
+#![doc = include_str!("../../plots/cook-torrance.svg")]
 
 use super::facet_parameters::{F0, PERCEPTUAL_ROUGHNESS};
 use super::{Claims, Energy, Model, Reciprocity, Sides};

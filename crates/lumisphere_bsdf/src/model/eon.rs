@@ -22,6 +22,7 @@
 //!
 //! Source: J. Portsmouth, P. Kutz and S. Hill, "EON: A practical energy-preserving rough diffuse BRDF", arXiv 2410.18026,
 //! JCGT 14(1), 2025.
+#![doc = include_str!("../../plots/eon.svg")]
 
 use super::diffuse::{ALBEDO, pdf_cosine, sample_cosine};
 use super::oren_nayar_improved::{SIGMA, scale, single_scattering};

@@ -20,8 +20,9 @@
 //! Source: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, eq. 20 and 33; E. Heitz,
 //! "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014, eq. 85, 86 and 99;
 //! `KHR_materials_anisotropy` for the widths. The samplers: see [`NormalSampling`](crate::NormalSampling).
+#![doc = include_str!("../../plots/ggx.svg")]
 
-use super::facet_parameters::{ANISOTROPY, F0, GAIN, GRAZING, PERCEPTUAL_ROUGHNESS, SAMPLING, sampling};
+use super::facet_parameters::{ANISOTROPY, F0, GAIN, GRAZING, SAMPLING, STRETCHED_ROUGHNESS, sampling};
 use super::{Claims, Energy, Model, Parameter, Range, Reciprocity, Sides};
 use crate::dfg::ggx_albedo;
 use crate::{FacetShape, Facets, Fresnel, Masking, Microfacet, PerceptualRoughness};
@@ -30,7 +31,7 @@ use crate::{FacetShape, Facets, Fresnel, Masking, Microfacet, PerceptualRoughnes
 pub(crate) const MODEL: Model = Model {
     name: "ggx",
     title: "GGX: rough mirror with a long tail",
-    parameters: &[PERCEPTUAL_ROUGHNESS, ANISOTROPY, F0, MASKING, SAMPLING],
+    parameters: &[STRETCHED_ROUGHNESS, ANISOTROPY, F0, MASKING, SAMPLING],
     claims: |values| Claims {
         reciprocity: Reciprocity::Exact,
         energy: if gains(values) { Energy::Gained } else { Energy::Bounded },

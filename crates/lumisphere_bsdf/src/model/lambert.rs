@@ -12,6 +12,7 @@
 //! Sampled by the cosine, which is exact: the weight is ρ for every sample.
 //!
 //! Source: J. H. Lambert, *Photometria*, 1760; 1/π by ∫ cos θ dω = π.
+#![doc = include_str!("../../plots/lambert.svg")]
 
 use super::{Claims, Energy, Model, Parameter, Range, Reciprocity, Sides};
 use crate::bsdf::{Bsdf, BsdfSample, Rgb, reflects, tinted};

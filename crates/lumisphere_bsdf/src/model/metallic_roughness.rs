@@ -31,6 +31,7 @@
 //!
 //! Source: glTF 2.0 specification, appendix B, and the Khronos extensions KHR_materials_anisotropy, clearcoat, ior, sheen, specular,
 //! transmission.
+#![doc = include_str!("../../plots/metallic-roughness.svg")]
 
 use super::{Claims, Energy, Model, Parameter, Range, Reciprocity, Sides};
 use crate::PerceptualRoughness;

@@ -1,29 +1,30 @@
 //! Every reflectance model by name: what it is, its parameters, what it claims, how it is made.
 //!
 //! A model is one file in this folder and one line in [`MODELS`]. The file's documentation is its page: equation, source, ranges, plot.
+//! The plots are drawn by `lumisphere brdf --thumbnails crates/lumisphere_bsdf/plots`; a new model starts with an empty file there.
 //! The proofs (tests `proofs_*`) run over the table, so that they apply to a new line by themselves: sampler against pdf, weight
 //! against f cos / pdf, reciprocity, positivity, and the furnace from both sides, each held against what the model claims here.
 
-mod beckmann;
-mod blinn_phong;
-mod burley;
-mod burley_renormalised;
-mod charlie;
-mod conductor;
-mod cook_torrance;
+pub mod beckmann;
+pub mod blinn_phong;
+pub mod burley;
+pub mod burley_renormalised;
+pub mod charlie;
+pub mod conductor;
+pub mod cook_torrance;
 mod diffuse;
-mod eon;
+pub mod eon;
 mod facet_parameters;
-mod ggx;
+pub mod ggx;
 mod highlight;
-mod lambert;
-mod metallic_roughness;
-mod oren_nayar;
-mod oren_nayar_improved;
-mod oren_nayar_vector;
-mod phong;
+pub mod lambert;
+pub mod metallic_roughness;
+pub mod oren_nayar;
+pub mod oren_nayar_improved;
+pub mod oren_nayar_vector;
+pub mod phong;
 mod power_cosine;
-mod rough_dielectric;
+pub mod rough_dielectric;
 mod table;
 mod values;
 

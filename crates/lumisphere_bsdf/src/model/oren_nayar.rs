@@ -17,6 +17,7 @@
 //! Within 1e-16 radians of the horizon the angles have no digits left; `oren-nayar-vector` keeps them. Sampled by the cosine.
 //!
 //! Source: M. Oren and S. K. Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994, the qualitative model.
+#![doc = include_str!("../../plots/oren-nayar.svg")]
 
 use super::diffuse::{ALBEDO, GAIN, pdf_cosine, sample_cosine};
 use super::{Claims, Energy, Model, Parameter, Range, Reciprocity, Sides};

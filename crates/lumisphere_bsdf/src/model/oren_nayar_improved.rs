@@ -16,6 +16,7 @@
 //! `eon` call FON, its single scattering; `eon` adds what is lost here. Sampled by the cosine.
 //!
 //! Source: Y. Fujii, "A tiny improvement of Oren-Nayar reflectance model", 2012-2013.
+#![doc = include_str!("../../plots/oren-nayar-improved.svg")]
 
 use super::diffuse::{ALBEDO, pdf_cosine, sample_cosine};
 use super::oren_nayar_vector::{larger_cosine, sine_product};

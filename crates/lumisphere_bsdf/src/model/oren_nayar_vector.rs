@@ -15,6 +15,7 @@
 //! Behaviour, gain of energy included, as `oren-nayar`. Sampled by the cosine.
 //!
 //! Source: J. van Ouwerkerk, "van Ouwerkerk's rewrite (of the Oren Nayar BRDF)", 2011; the model as at `oren-nayar`.
+#![doc = include_str!("../../plots/oren-nayar-vector.svg")]
 
 use super::Model;
 use super::diffuse::{ALBEDO, pdf_cosine, sample_cosine};

@@ -28,6 +28,7 @@
 //!
 //! Source: B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975; the factors: F. Giesen's
 //! derivation of the normalisation of Phong and Blinn-Phong, 2009.
+#![doc = include_str!("../../plots/phong.svg")]
 
 use super::Model;
 use super::highlight::{Factors, Normalisation, PARAMETERS};

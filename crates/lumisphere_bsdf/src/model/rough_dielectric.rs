@@ -21,8 +21,9 @@
 //!
 //! Source: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, eq. 13 to 24, 40 and 41; E. Heitz and
 //! E. d'Eon, "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals", EGSR 2014.
+#![doc = include_str!("../../plots/rough-dielectric.svg")]
 
-use super::facet_parameters::{ANISOTROPY, PERCEPTUAL_ROUGHNESS, SHAPE, SHAPES};
+use super::facet_parameters::{ANISOTROPY, SHAPE, SHAPES, STRETCHED_ROUGHNESS};
 use super::{Claims, Energy, Model, Parameter, Range, Reciprocity, Sides};
 use crate::{Facets, PerceptualRoughness, RoughDielectric};
 
@@ -31,7 +32,7 @@ pub(crate) const MODEL: Model = Model {
     name: "rough-dielectric",
     title: "Rough glass: reflection and refraction",
     parameters: &[
-        PERCEPTUAL_ROUGHNESS,
+        STRETCHED_ROUGHNESS,
         Parameter {
             name: "ior",
             meaning: "index inside over that outside",

@@ -136,5 +136,5 @@ pub(crate) fn rounding(g: impl Fn(Vec3, Vec3) -> f64, wo: Vec3, wi: Vec3) -> f64
     };
     let moved = turned(wo).map(|wo| g(wo, wi)).chain(turned(wi).map(|wi| g(wo, wi)));
     let change = moved.map(|other| (other - value).abs()).fold(0.0, f64::max);
-    f64::MIN_POSITIVE + 1e-11 * value.abs() + BITS / STEP * change
+    1e-11 * value.abs() + BITS / STEP * change
 }
