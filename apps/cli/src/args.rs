@@ -2,12 +2,12 @@
 
 use crate::choices::{
     ArrangeChoice, CompressionChoice, ContainerChoice, CurveChoice, DfgChoice, EngineChoice, FaceSideChoice,
-    FormatChoice, IrradianceChoice, LayoutChoice, LobeChoice, LookupChoice, MaskingChoice, OutputChoice,
-    ShWindowChoice, WeightChoice,
+    FormatChoice, IrradianceChoice, LanguageChoice, LayoutChoice, LobeChoice, LookupChoice, MaskingChoice,
+    OutputChoice, ShWindowChoice, WeightChoice,
 };
 use crate::values::{
-    LowerHemisphere, Repair, RoughnessList, YawPitchRoll, parse_bytes, parse_face_size, parse_finite, parse_positive,
-    parse_turn, parse_unit, parse_view,
+    LowerHemisphere, Repair, RoughnessList, YawPitchRoll, parse_assignment, parse_bytes, parse_face_size, parse_finite,
+    parse_positive, parse_turn, parse_unit, parse_view,
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lumisphere::sphere::AxisTurn;
@@ -32,6 +32,7 @@ pub(crate) enum Command {
         json: bool,
     },
     Convert(ConvertArgs),
+    Dfg(DfgArgs),
     Formats(FormatsArgs),
     Inspect(InspectArgs),
     Verify(VerifyArgs),
@@ -44,7 +45,7 @@ pub(crate) enum Command {
     /// Print a manual page (roff): `lumisphere man bake | man -l -`
     Man {
         /// The command whose page to print; without one, the page of `lumisphere` itself
-        #[arg(value_parser = ["bake", "targets", "convert", "formats", "inspect", "verify", "brdf", "completions", "man"])]
+        #[arg(value_parser = ["bake", "targets", "convert", "dfg", "formats", "inspect", "verify", "brdf", "completions", "man"])]
         command: Option<String>,
     },
 }
@@ -266,6 +267,38 @@ pub(crate) struct ConvertArgs {
     /// One JSON object on stdout
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub common: CommonArgs,
+}
+
+/// Tabulate the directional albedo of a reflectance model
+///
+/// Without MODEL the (scale, bias) of GGX that `bake` writes: E = F0 scale + bias over n.v and perceptual roughness.
+/// With it the share of light that the model reflects, over n.v and one of its parameters. The extension of FILE says
+/// what is written: .ktx2 .dds .exr .png .csv, and without MODEL also .glsl .hlsl .wgsl .h .rs
+#[derive(Debug, Args)]
+pub(crate) struct DfgArgs {
+    /// The model, such as eon or burley
+    #[arg(value_name = "MODEL")]
+    pub model: Option<String>,
+    /// Parameters of the model; a name may be cut short
+    #[arg(value_name = "NAME=VALUE", value_parser = parse_assignment)]
+    pub values: Vec<(String, String)>,
+    /// The parameter that changes from row to row, over its whole range [default: the model's first]
+    #[arg(long, value_name = "PARAMETER")]
+    pub over: Option<String>,
+    /// Width and height of the table
+    #[arg(long, value_name = "N", default_value_t = 128)]
+    pub size: usize,
+    /// Masking-shadowing of the table without MODEL
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = MaskingChoice::SmithGgxCorrelated)]
+    pub masking: MaskingChoice,
+    /// The file to write; its extension says which [default: dfg.ktx2, or MODEL.ktx2]
+    #[arg(short, long, value_name = "FILE", conflicts_with = "fit")]
+    pub output: Option<PathBuf>,
+    /// Print a function that needs no table instead, where there is one within 2e-3
+    #[arg(long, value_enum, value_name = "LANGUAGE")]
+    pub fit: Option<LanguageChoice>,
     #[command(flatten)]
     pub common: CommonArgs,
 }

@@ -242,6 +242,17 @@ choice! {
     }
 }
 
+choice! {
+    /// Languages of a fit.
+    LanguageChoice = Language {
+        Glsl = Language::Glsl,
+        Hlsl = Language::Hlsl,
+        Wgsl = Language::Wgsl,
+        C = Language::C,
+        Rust = Language::Rust,
+    }
+}
+
 /// File types of the DFG table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum DfgChoice {

@@ -10,6 +10,7 @@ mod convert_command;
 mod convert_content;
 mod convert_harmonics;
 mod convert_output;
+mod dfg_command;
 mod environment_input;
 mod environments;
 mod files;
@@ -68,6 +69,10 @@ fn run(command: Command) -> Result<ExitCode> {
         Command::Convert(args) => {
             set_threads(args.common.threads)?;
             convert_command::run(&args)?;
+        }
+        Command::Dfg(args) => {
+            set_threads(args.common.threads)?;
+            dfg_command::run(&args)?;
         }
         Command::Formats(args) => {
             set_threads(args.common.threads)?;

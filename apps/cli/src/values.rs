@@ -155,6 +155,12 @@ fn number(text: &str) -> Option<f64> {
     text.parse().ok().filter(|n: &f64| n.is_finite())
 }
 
+/// `name=value`.
+pub(crate) fn parse_assignment(text: &str) -> Result<(String, String), String> {
+    let parts = text.split_once('=').ok_or_else(|| "expected NAME=VALUE".to_owned())?;
+    Ok((parts.0.to_owned(), parts.1.to_owned()))
+}
+
 /// Bytes: a number with an optional unit; kB, MB, GB are powers of 1000, KiB, MiB, GiB of 1024.
 pub(crate) fn parse_bytes(text: &str) -> Result<u64, String> {
     const UNITS: [(&str, f64); 10] = [

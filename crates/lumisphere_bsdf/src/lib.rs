@@ -14,6 +14,7 @@
 //! | [`model`] | every reflectance model by name, with its parameters and claims |
 //! | [`material`] | the layered metallic-roughness material |
 //! | [`albedo`] | directional and average albedo of any model, by quadrature and by its sampler |
+//! | [`albedo_fit`] | the albedo as functions that need no table, for shaders |
 //! | [`albedo_table`] | the albedo of any model tabulated over n·v and one of its parameters |
 //! | [`dfg`] | directional and average albedo by deterministic quadrature |
 //! | [`dfg_table`] | the albedo tabulated over n·v and perceptual roughness |
@@ -22,6 +23,7 @@
 //! (see [`Alpha::new`]), and α = 0 is computed as α = [`ndf::MIN_ALPHA`].
 
 pub mod albedo;
+pub mod albedo_fit;
 pub mod albedo_table;
 mod bsdf;
 pub mod dfg;

@@ -77,11 +77,12 @@ impl Surroundings {
     }
 }
 
-/// The level whose texels are twice as wide as a sample's share of the sphere (M. Colbert and J. Křivánek, "GPU-Based Importance
-/// Sampling", GPU Gems 3, 2007, §20.4): shares overlap, and the grain is finer.
+/// The level whose texels are as large as the share of the sphere of each of a pixel's samples (M. Colbert and J. Křivánek,
+/// "GPU-Based Importance Sampling", GPU Gems 3, 2007, §20.4). A coarser one would have less grain, and be darker: light from
+/// above would be spread down to where the cosine is small.
 fn lod(pdf: f64) -> f64 {
-    let texel = 4.0 * PI / (6 * FACE * FACE) as f64;
-    1.0 + 0.5 * (1.0 / (f64::from(SAMPLES) * pdf * texel)).log2()
+    let (texel, samples) = (4.0 * PI / (6 * FACE * FACE) as f64, f64::from(SAMPLES) * (PLACES * PLACES) as f64);
+    0.5 * (1.0 / (samples * pdf * texel)).log2()
 }
 
 fn seed(normal: Vec3) -> u32 {
@@ -126,7 +127,7 @@ mod tests {
 
     /// The mean of so many places, each with its own samples of a blurred picture, comes within this of the sum over the texels.
     const NOISE: f64 = 0.05;
-    const PLACES_NEARBY: usize = 64;
+    const PLACES_NEARBY: usize = 1024;
 
     #[test]
     fn a_white_lambert_ball_shows_the_irradiance_over_pi() {
@@ -143,7 +144,7 @@ mod tests {
             expected += f64::from(texel[1]) * cosine * grid.texel_solid_angle(face, x, y) / PI;
         }
         // Moved by less than the light changes, and by enough for another scrambling.
-        let nearby = |i: usize| normalize([normal[0] + 1e-6 * i as f64, normal[1], normal[2]]);
+        let nearby = |i: usize| normalize([normal[0] + 1e-7 * i as f64, normal[1], normal[2]]);
         let found: f64 =
             (0..PLACES_NEARBY).map(|i| f64::from(surroundings.radiance(&entry, nearby(i))[1])).sum::<f64>()
                 / PLACES_NEARBY as f64;

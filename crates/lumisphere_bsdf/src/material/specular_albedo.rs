@@ -5,6 +5,7 @@ use super::nodes::{average_weights, mix_pairs, node, place, value_at};
 use crate::dfg::MIN_N_DOT_V;
 use crate::facets::{Facets, NormalSampling};
 use crate::fresnel::schlick_weight;
+use crate::ndf::MIN_ALPHA;
 use crate::{Alpha, PerceptualRoughness};
 use lumisphere_sphere::Vec3;
 use lumisphere_sphere::quadrature::gauss_legendre;
@@ -42,7 +43,9 @@ impl SpecularAlbedo {
     pub(super) fn new(facets: &Facets, tables: &AlbedoTables) -> Self {
         let [along, across] = facets.alphas();
         if along == across {
-            return Self::isotropic(Alpha::clamped(along).to_perceptual_roughness(), tables);
+            // The narrowest lobe stands for a mirror.
+            let alpha = if along > MIN_ALPHA { along } else { 0.0 };
+            return Self::isotropic(Alpha::clamped(alpha).to_perceptual_roughness(), tables);
         }
         let squeeze = (across / along).max(NARROWEST);
         let azimuth = |row: usize| azimuth_of(row as f64 / (AZIMUTHS - 1) as f64, squeeze);

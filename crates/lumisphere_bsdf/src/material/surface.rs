@@ -19,9 +19,11 @@ use std::array::from_fn;
 /// From the top: clear coat, sheen, base. The base is a mixture of metal and dielectric; the dielectric a specular lobe over a diffuse
 /// one, or over what passes the thin surface. A layer lets through what its directional albedo E leaves:
 ///
-///     f       = c f_coat + (1 - c E_coat(v)) f_under
-///     f_under = s f_sheen + (1 - max(s) E_sheen(v)) f_base
-///     f_base  = m f_metal + (1 - m) (f_specular + (1 - t) κ f_diffuse + t κ f_transmitted)
+/// ```text
+/// f       = c f_coat + (1 - c E_coat(v)) f_under
+/// f_under = s f_sheen + (1 - max(s) E_sheen(v)) f_base
+/// f_base  = m f_metal + (1 - m) (f_specular + (1 - t) κ f_diffuse + t κ f_transmitted)
+/// ```
 ///
 /// with κ of [`super::DiffuseCoupling`]. A surface that transmits is thin and the same from both sides; any other is black from below.
 ///

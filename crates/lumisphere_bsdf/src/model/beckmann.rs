@@ -1,10 +1,12 @@
 //! Beckmann facets, whose slopes are Gaussian, with Schlick's Fresnel factor.
 //!
-//!     f = D V F
-//!     D = exp(-((x/α_x)² + (y/α_y)²)/z²) / (π α_x α_y z⁴)           (x, y, z) = h
-//!     V = 1 / (4 n·l n·v (1 + Λ(l) + Λ(v)))                          smith-beckmann-correlated
-//!     Λ = exp(-a²)/(2 a √π) - erfc(a)/2                              a = z / √((α_x x)² + (α_y y)²)
-//!     F = F0 + (1 - F0) (1 - v·h)⁵
+//! ```text
+//! f = D V F
+//! D = exp(-((x/α_x)² + (y/α_y)²)/z²) / (π α_x α_y z⁴)           (x, y, z) = h
+//! V = 1 / (4 n·l n·v (1 + Λ(l) + Λ(v)))                          smith-beckmann-correlated
+//! Λ = exp(-a²)/(2 a √π) - erfc(a)/2                              a = z / √((α_x x)² + (α_y y)²)
+//! F = F0 + (1 - F0) (1 - v·h)⁵
+//! ```
 //!
 //! | parameter | range | default | what it is |
 //! |---|---|---|---|

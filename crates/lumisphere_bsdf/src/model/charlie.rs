@@ -1,9 +1,11 @@
 //! Charlie sheen: the fibres of cloth, which stand up and shine at the horizon.
 //!
-//!     f = D V
-//!     D = (2 + 1/α)/2π sin^{1/α} θ_h
-//!     V = 1 / (4 (n·l + n·v - n·l n·v))                             neubelt
-//!     V = 1 / (4 n·l n·v (1 + Λ(l) + Λ(v)))                          estevez-kulla, Λ a fit
+//! ```text
+//! f = D V
+//! D = (2 + 1/α)/2π sin^{1/α} θ_h
+//! V = 1 / (4 (n·l + n·v - n·l n·v))                             neubelt
+//! V = 1 / (4 n·l n·v (1 + Λ(l) + Λ(v)))                          estevez-kulla, Λ a fit
+//! ```
 //!
 //! | parameter | range | default | what it is |
 //! |---|---|---|---|

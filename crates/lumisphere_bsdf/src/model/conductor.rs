@@ -1,10 +1,12 @@
 //! Rough metal: GGX facets with the exact Fresnel factor of a complex index.
 //!
-//!     f = D V F
-//!     D, V: as `ggx` with smith-ggx-correlated
-//!     F = (R_s + R_p)/2,  a + i b = √((n + i k)² - sin²θ),  μ = cos θ = v·h
-//!     R_s = |a + i b - μ|² / |a + i b + μ|²
-//!     R_p = R_s |a + i b - sin²θ/μ|² / |a + i b + sin²θ/μ|²
+//! ```text
+//! f = D V F
+//! D, V: as `ggx` with smith-ggx-correlated
+//! F = (R_s + R_p)/2,  a + i b = √((n + i k)² - sin²θ),  μ = cos θ = v·h
+//! R_s = |a + i b - μ|² / |a + i b + μ|²
+//! R_p = R_s |a + i b - sin²θ/μ|² / |a + i b + sin²θ/μ|²
+//! ```
 //!
 //! | parameter | range | default | what it is |
 //! |---|---|---|---|

@@ -1,9 +1,11 @@
 //! Cook and Torrance's specular term: Beckmann facets in V-shaped grooves.
 //!
-//!     f = D G F / (4 n·l n·v)
-//!     D = exp(-tan²θ_h/m²) / (π m² cos⁴θ_h)                    m = α = p²
-//!     G = min(1, 2 n·h n·v / v·h, 2 n·h n·l / v·h)
-//!     F = F0 + (1 - F0) (1 - v·h)⁵
+//! ```text
+//! f = D G F / (4 n·l n·v)
+//! D = exp(-tan²θ_h/m²) / (π m² cos⁴θ_h)                    m = α = p²
+//! G = min(1, 2 n·h n·v / v·h, 2 n·h n·l / v·h)
+//! F = F0 + (1 - F0) (1 - v·h)⁵
+//! ```
 //!
 //! | parameter | range | default | what it is |
 //! |---|---|---|---|

@@ -1,9 +1,11 @@
 //! GGX (Trowbridge-Reitz) facets with any masking function and Schlick's Fresnel factor.
 //!
-//!     f = D V F
-//!     D = 1 / (π α_x α_y ((x/α_x)² + (y/α_y)² + z²)²)                (x, y, z) = h
-//!     V = 1 / (2 (n·l √(z_v² + (α_x x_v)² + (α_y y_v)²) + n·v √(z_l² + (α_x x_l)² + (α_y y_l)²)))     smith-ggx-correlated
-//!     F = F0 + (1 - F0) (1 - v·h)⁵
+//! ```text
+//! f = D V F
+//! D = 1 / (π α_x α_y ((x/α_x)² + (y/α_y)² + z²)²)                (x, y, z) = h
+//! V = 1 / (2 (n·l √(z_v² + (α_x x_v)² + (α_y y_v)²) + n·v √(z_l² + (α_x x_l)² + (α_y y_l)²)))     smith-ggx-correlated
+//! F = F0 + (1 - F0) (1 - v·h)⁵
+//! ```
 //!
 //! | parameter | range | default | what it is |
 //! |---|---|---|---|
