@@ -12,7 +12,7 @@ use lumisphere::sphere::{Grid, Projection, Rotation, Vec3};
 use std::f64::consts::PI;
 
 /// Samples of the surroundings for each of the four places in a pixel.
-const SAMPLES: u32 = 12;
+const SAMPLES: u32 = 32;
 /// Places along each side of a pixel.
 const PLACES: usize = 2;
 /// Face size of the surroundings: finer detail is not seen in a ball of this size.
