@@ -12,8 +12,9 @@ use crate::cubature::{Probe, Rectangle, Tolerance, integrate, split};
 use lumisphere_sphere::Vec3;
 use std::f64::consts::{PI, TAU};
 
-/// Integrals are to about 1e-5 of the whole: a tenth of the standard deviation of a cell's count at 1e6 samples.
-const TOLERANCE: Tolerance = Tolerance { relative: 1e-4, absolute: 1e-8 };
+/// A relative bound below the noise of a lobe whose digits are lost (1e-4 where 1 - cos² stands for α² = 1e-12) would divide without
+/// end.
+const TOLERANCE: Tolerance = Tolerance { relative: 1e-3, absolute: 1e-8 };
 
 /// The share of the directions, as a divisor, that may be a ridge.
 const RIDGE: usize = 100;
@@ -99,7 +100,8 @@ impl SampleCells {
         }
     }
 
-    /// ∫ f dω over each cell, to about 1e-5 in all where ∫ f is about 1, for an f that is large only near the directions learnt.
+    /// ∫ f dω over each cell, for an f that is large only near the directions learnt. The sum is within 1e-4 for f = 1 (test
+    /// `cells_hold_about_as_many_each`); a peak where none of the directions is may be missed.
     pub fn integrals(&self, f: impl Fn(Vec3) -> f64) -> Vec<f64> {
         let on_angles = |at: [f64; 2]| at[0].sin() * f(self.angles.direction(at));
         let of_cell = |cell: &Cell| {
