@@ -5,6 +5,7 @@ use crate::choices::{
     FormatChoice, IrradianceChoice, LanguageChoice, LayoutChoice, LobeChoice, LookupChoice, MaskingChoice,
     OutputChoice, ShWindowChoice, WeightChoice,
 };
+use crate::compare::CompareArgs;
 use crate::values::{
     LowerHemisphere, Repair, RoughnessList, YawPitchRoll, parse_assignment, parse_bytes, parse_face_size, parse_finite,
     parse_positive, parse_turn, parse_unit, parse_view,
@@ -16,7 +17,9 @@ use std::path::PathBuf;
 /// Image-based lighting from pictures of the world around: bake it, look into it, measure it.
 #[derive(Debug, Parser)]
 #[command(name = "lumisphere", version, propagate_version = true, arg_required_else_help = true, max_term_width = 110)]
-#[command(after_help = "Exit codes: 0 success, 1 verify found an error over the contract, 2 anything that went wrong.")]
+#[command(
+    after_help = "Exit codes: 0 success, 1 verify found an error over the contract or compare one over a limit, 2 anything that went wrong."
+)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub command: Command,
@@ -37,6 +40,7 @@ pub(crate) enum Command {
     Inspect(InspectArgs),
     Verify(VerifyArgs),
     Brdf(BrdfArgs),
+    Compare(CompareArgs),
     /// Print shell completions
     Completions {
         /// The shell
@@ -45,7 +49,7 @@ pub(crate) enum Command {
     /// Print a manual page (roff): `lumisphere man bake | man -l -`
     Man {
         /// The command whose page to print; without one, the page of `lumisphere` itself
-        #[arg(value_parser = ["bake", "targets", "convert", "dfg", "formats", "inspect", "verify", "brdf", "completions", "man"])]
+        #[arg(value_parser = ["bake", "targets", "convert", "dfg", "formats", "inspect", "verify", "brdf", "compare", "completions", "man"])]
         command: Option<String>,
     },
 }

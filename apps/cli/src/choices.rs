@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use lumisphere::bake::{Engine, RoughnessCurve, SampleLookup};
 use lumisphere::bsdf::{LobeShape, LobeWeight, Masking};
-use lumisphere::image::{CubeLayout, FaceSide};
+use lumisphere::image::{CubeLayout, FaceSide, ToneMap};
 use lumisphere::sphere::Projection;
 use lumisphere::target::{
     Container, FlatFile, FlatLayout, Form, IrradianceUnit, Language, ShWindow, TexelChoice, TextureContainer,
@@ -50,6 +50,24 @@ choice! {
         Phong = LobeShape::Phong,
         /// The sheen of cloth
         Charlie = LobeShape::Charlie,
+    }
+}
+
+choice! {
+    /// From radiance to what a display shows.
+    ToneMapChoice = ToneMap {
+        /// Cut to [0, 1]
+        Linear = ToneMap::Linear,
+        /// x / (1 + x) of each channel
+        Reinhard = ToneMap::Reinhard,
+        /// Stephen Hill's fit of ACES
+        Aces = ToneMap::AcesFitted,
+        /// Troy Sobotka's AgX, base look
+        Agx = ToneMap::AgX,
+        /// Khronos PBR Neutral
+        Neutral = ToneMap::PbrNeutral,
+        /// Cut to [0, 1] and shown by the power 1/2.2
+        Thesis = ToneMap::ThesisGamma,
     }
 }
 

@@ -1,4 +1,4 @@
-//! The `lumisphere` command: bakes, inspects and verifies image-based lighting.
+//! The `lumisphere` command: bakes, inspects and verifies image-based lighting, compares pictures.
 
 mod args;
 mod bake_command;
@@ -6,6 +6,7 @@ mod bake_environment;
 mod brdf;
 mod builtin_source;
 mod choices;
+mod compare;
 mod convert_command;
 mod convert_content;
 mod convert_harmonics;
@@ -44,7 +45,7 @@ use args::{Cli, Command};
 use clap::{CommandFactory, Parser};
 use std::process::ExitCode;
 
-/// `verify` found an error over the contract.
+/// `verify` found an error over the contract, or `compare` one over a limit.
 const OVER_CONTRACT: u8 = 1;
 /// Anything that went wrong, as with clap's own errors.
 const FAILED: u8 = 2;
@@ -89,6 +90,12 @@ fn run(command: Command) -> Result<ExitCode> {
             }
         }
         Command::Brdf(args) => brdf::run(&args)?,
+        Command::Compare(args) => {
+            set_threads(args.common.threads)?;
+            if !compare::run(&args)? {
+                return Ok(ExitCode::from(OVER_CONTRACT));
+            }
+        }
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "lumisphere", &mut text);

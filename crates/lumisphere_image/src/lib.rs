@@ -1,4 +1,5 @@
-//! Environment images: containers, mips, exact resampling, adjustments, sanitising and built-in environments.
+//! Environment images: containers, mips, exact resampling, adjustments, sanitising and built-in environments; tone maps
+//! and the sRGB curve.
 //!
 //! Axes, faces and image orientation are stated once, in the project's CONVENTIONS.md.
 
@@ -19,6 +20,7 @@ mod rows;
 mod sample;
 mod sanitise;
 mod statistics;
+mod tone;
 mod turned;
 mod weights;
 
@@ -36,4 +38,5 @@ pub use resample::resample;
 pub use sample::{sample_bilinear, sample_chain, sample_cube, sample_lat_long, sample_nearest};
 pub use sanitise::{RepairPolicy, Repairs, sanitise};
 pub use statistics::{Brightest, ChannelStatistics, Statistics, statistics};
+pub use tone::{Display, SrgbBytes, ToneMap, automatic_exposure, exposure_factor, linear_from_srgb, srgb_from_linear};
 pub use turned::turned;

@@ -34,6 +34,7 @@ pub(super) const TABLE: &[Row] = &[
     library("lumisphere_bsdf", &["lumisphere_sphere"]),
     library("lumisphere_image", &["lumisphere_sphere"]),
     library("lumisphere_codec", &["lumisphere_sphere", "lumisphere_image"]),
+    library("lumisphere_compare", &["lumisphere_image"]),
     library("lumisphere_bake", &["lumisphere_sphere", "lumisphere_sh", "lumisphere_bsdf", "lumisphere_image"]),
     library(
         "lumisphere_target",
@@ -55,6 +56,7 @@ pub(super) const TABLE: &[Row] = &[
             "lumisphere_image",
             "lumisphere_codec",
             "lumisphere_bake",
+            "lumisphere_compare",
             "lumisphere_target",
         ],
     ),

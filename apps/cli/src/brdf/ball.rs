@@ -3,9 +3,9 @@
 use super::entry::Entry;
 use crate::preview::panorama::Panorama;
 use crate::preview::sphere;
-use crate::preview::tone::{Display, automatic_exposure};
+
 use anyhow::{Context, Result};
-use lumisphere::image::{Builtin, CubeChain, Rgb, resample, sample_chain};
+use lumisphere::image::{Builtin, CubeChain, Display, Rgb, ToneMap, automatic_exposure, resample, sample_chain};
 use lumisphere::sphere::sequence::OwenSobol;
 use lumisphere::sphere::vector::{cross, dot, normalize, scale, try_normalize};
 use lumisphere::sphere::{Grid, Projection, Rotation, Vec3};
@@ -48,7 +48,12 @@ impl Surroundings {
         let chain = CubeChain::mips(cube)?;
         let coarsest = chain.levels().last().context("a chain has levels")?;
         let mean = coarsest.texels().iter().map(|t| f64::from(t[1])).sum::<f64>() / coarsest.texels().len() as f64;
-        Ok(Self { chain, display: Display::new(exposure), exposure, irradiance: LIGHT_SHARE * PI * mean })
+        Ok(Self {
+            chain,
+            display: Display::new(exposure, ToneMap::PbrNeutral),
+            exposure,
+            irradiance: LIGHT_SHARE * PI * mean,
+        })
     }
 
     /// The ball as a PNG of `size` pixels.

@@ -1,22 +1,20 @@
 //! `preview.png`: the environment above, below it a diffuse ball, a mirror ball for each level and the DFG table.
 
-mod canvas;
-mod label;
+pub(crate) mod canvas;
+pub(crate) mod label;
 pub(crate) mod panorama;
 pub(crate) mod sphere;
-pub(crate) mod tone;
 
 use anyhow::Result;
 use canvas::Canvas;
 use label::{Align, Typeface};
 use lumisphere::bake::{BakedEnvironment, SpecularChain};
 use lumisphere::bsdf::DfgTable;
-use lumisphere::image::{Environment, Rgb, sample_bilinear, sample_cube};
+use lumisphere::image::{Display, Environment, Rgb, ToneMap, automatic_exposure, sample_bilinear, sample_cube};
 use lumisphere::sphere::{Rotation, Vec3};
 use lumisphere_codec::Encoded;
 use panorama::Panorama;
 use rayon::prelude::*;
-use tone::{Display, automatic_exposure};
 
 /// Name of the file.
 pub(crate) const FILE: &str = "preview.png";
@@ -57,8 +55,8 @@ impl Preview {
     pub(crate) fn new(environment: &Environment, rotation: &Rotation, caption: String) -> Self {
         let small = Panorama::new(environment, rotation, PANORAMA_WIDTH);
         let exposure = automatic_exposure(small.weighted());
-        let display = Display::new(exposure);
-        let panorama = small.texels.par_iter().map(|t| display.encode(display.linear(*t))).collect();
+        let display = Display::new(exposure, ToneMap::PbrNeutral);
+        let panorama = small.texels.par_iter().map(|t| display.show(*t)).collect();
         Self { display, exposure, caption, panorama }
     }
 

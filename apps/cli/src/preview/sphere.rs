@@ -1,7 +1,6 @@
 //! A ball seen by an orthographic camera on +Z that looks along -Z, +Y up.
 
-use super::tone::Display;
-use lumisphere::image::Rgb;
+use lumisphere::image::{Display, Rgb};
 use lumisphere::sphere::Vec3;
 use rayon::prelude::*;
 
@@ -65,7 +64,7 @@ mod tests {
 
     #[test]
     fn the_ball_is_round_and_upright() {
-        let display = Display::new(0.0);
+        let display = Display::new(0.0, lumisphere::image::ToneMap::PbrNeutral);
         let picture = draw(16, 2, &display, [0.0; 3], |n| [0.5 + 0.3 * n[1] as f32, 0.5, 0.5 + 0.3 * n[0] as f32]);
         assert_eq!(picture[0], [0, 0, 0]);
         assert!(picture[2 * 16 + 8][0] > picture[13 * 16 + 8][0], "up is brighter in red");

@@ -3,7 +3,7 @@
 use crate::error::{CodecError, FileFormat::Png};
 use crate::limits::Limits;
 use ::png::{BitDepth, ColorType, Transformations};
-use lumisphere_image::{Picture, Rgb};
+use lumisphere_image::{Picture, Rgb, linear_from_srgb};
 use std::io::Cursor;
 
 /// Decodes a PNG of any colour type and depth to linear Rec.709; the first frame of an animation.
@@ -131,8 +131,7 @@ impl Curve {
 
     fn linear(self, value: f64) -> f32 {
         let linear = match self {
-            Self::Srgb if value <= 0.04045 => value / 12.92,
-            Self::Srgb => ((value + 0.055) / 1.055).powf(2.4),
+            Self::Srgb => linear_from_srgb(value),
             Self::Power(exponent) => value.powf(exponent),
         };
         linear as f32
