@@ -20,6 +20,7 @@
 use super::diffuse::{ALBEDO, GAIN, pdf_cosine, sample_cosine};
 use super::{Claims, Energy, Model, Parameter, Range, Reciprocity, Sides};
 use crate::bsdf::{Bsdf, BsdfSample, Rgb, reflects, tinted};
+use crate::fresnel::schlick_weight;
 use lumisphere_sphere::Vec3;
 use lumisphere_sphere::vector::dot;
 use std::f64::consts::FRAC_1_PI;
@@ -84,7 +85,7 @@ impl HorizonShape {
     #[inline]
     pub(super) fn at(self, wo: Vec3, wi: Vec3) -> f64 {
         let k = self.base + self.retro * dot(wo, wi);
-        FRAC_1_PI * self.factor * (1.0 + k * falloff(wo[2])) * (1.0 + k * falloff(wi[2]))
+        FRAC_1_PI * self.factor * (1.0 + k * schlick_weight(wo[2])) * (1.0 + k * schlick_weight(wi[2]))
     }
 
     /// What a model of this shape with albedo `rho` claims, by its largest directional albedo.
@@ -101,17 +102,10 @@ impl HorizonShape {
         let Self { base, retro, factor } = self;
         let along = retro * mu;
         let across2 = 0.5 * retro * retro * (1.0 - mu * mu);
-        let linear = base / 21.0 + along / 84.0 + falloff(mu) * (base + along * 2.0 / 3.0);
+        let linear = base / 21.0 + along / 84.0 + schlick_weight(mu) * (base + along * 2.0 / 3.0);
         let square = base * base / 21.0 + base * along / 42.0 + along * along / 252.0 + across2 * 11.0 / 252.0;
-        factor * (1.0 + linear + falloff(mu) * square)
+        factor * (1.0 + linear + schlick_weight(mu) * square)
     }
-}
-
-/// (1 - μ)⁵.
-#[inline]
-fn falloff(mu: f64) -> f64 {
-    let m = (1.0 - mu).max(0.0);
-    m * m * m * m * m
 }
 
 #[cfg(test)]
