@@ -1,4 +1,4 @@
-//! Writes the first inputs of each target: tiny pictures, one for each branch of a format, and files that lie.
+//! Writes the first inputs of each target: tiny pictures and scenes, one for each branch of a format, and files that lie.
 //!
 //! `cargo run --example seeds` fills `corpus/<reader>/` and `regressions/<reader>/`.
 
@@ -7,6 +7,7 @@ mod dds;
 mod env;
 mod exr;
 mod exr_raw;
+mod gltf;
 mod hdr;
 mod ktx1;
 mod ktx2;
@@ -27,6 +28,7 @@ fn main() -> std::io::Result<()> {
         ("ktx2", ktx2::seeds(), ktx2::hostile()),
         ("dds", dds::seeds(), dds::hostile()),
         ("env", env::seeds(), env::hostile()),
+        ("gltf", gltf::seeds(), gltf::hostile()),
     ];
     for (reader, seeds, hostile) in readers {
         write(&Path::new("corpus").join(reader), "seed-", &seeds)?;

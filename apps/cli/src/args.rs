@@ -6,6 +6,7 @@ use crate::choices::{
     OutputChoice, ShWindowChoice, WeightChoice,
 };
 use crate::compare::CompareArgs;
+use crate::render::RenderArgs;
 use crate::values::{
     LowerHemisphere, Repair, RoughnessList, YawPitchRoll, parse_assignment, parse_bytes, parse_face_size, parse_finite,
     parse_positive, parse_turn, parse_unit, parse_view,
@@ -39,8 +40,9 @@ pub(crate) enum Command {
     Formats(FormatsArgs),
     Inspect(InspectArgs),
     Verify(VerifyArgs),
-    Brdf(BrdfArgs),
     Compare(CompareArgs),
+    Render(Box<RenderArgs>),
+    Brdf(BrdfArgs),
     /// Print shell completions
     Completions {
         /// The shell
@@ -49,7 +51,7 @@ pub(crate) enum Command {
     /// Print a manual page (roff): `lumisphere man bake | man -l -`
     Man {
         /// The command whose page to print; without one, the page of `lumisphere` itself
-        #[arg(value_parser = ["bake", "targets", "convert", "dfg", "formats", "inspect", "verify", "brdf", "compare", "completions", "man"])]
+        #[arg(value_parser = ["bake", "targets", "convert", "dfg", "formats", "inspect", "verify", "compare", "render", "brdf", "completions", "man"])]
         command: Option<String>,
     },
 }
@@ -324,12 +326,14 @@ pub(crate) struct FormatsArgs {
     pub common: CommonArgs,
 }
 
-/// Show what is in a picture or a baked file
+/// Show what is in a picture, a scene or a baked file
 ///
-/// Size, layout, format, extremes and means, illuminance, dynamic range, damaged texels; for textures each level.
+/// Size, layout, format, extremes and means, illuminance, dynamic range, damaged texels; for textures each level;
+/// for scenes meshes, materials, lights, cameras and what is ignored.
 #[derive(Debug, Args)]
 pub(crate) struct InspectArgs {
-    /// A .hdr, .exr, .png, .ktx, .ktx2, .dds or .env file, one of six faces, or the sh.json or bake.json of a bake
+    /// A .hdr, .exr, .png, .ktx, .ktx2, .dds or .env file, one of six faces, a .gltf, .glb or .obj scene or a built-in one, or the
+    /// sh.json or bake.json of a bake
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Layout of the picture [default: the file's own word, else a guess from its shape]; one of six faces is then looked
@@ -355,13 +359,20 @@ pub(crate) struct InspectArgs {
 #[derive(Debug, Args)]
 pub(crate) struct VerifyArgs {
     /// The folder that `lumisphere bake` made, or a cube texture of any tool
-    #[arg(value_name = "DIR|FILE")]
-    pub path: PathBuf,
+    #[arg(value_name = "DIR|FILE", required_unless_present = "shading")]
+    pub path: Option<PathBuf>,
     #[arg(long = "env", value_name = "ENV", help = ENV_HELP, long_help = ENV_LONG_HELP)]
     pub environment: String,
     /// Texels of each level to compare, beside its brightest and those along the edges
     #[arg(long, value_name = "N", default_value_t = 256)]
     pub texels: usize,
+    /// Measure shading with light baked of ENV instead of files: spheres over roughness and metallic against the path tracer, where the
+    /// error comes from, and what other choices would make of it
+    #[arg(long, conflicts_with = "path")]
+    pub shading: bool,
+    /// Samples of the truth at each point, with --shading
+    #[arg(long, value_name = "N", default_value_t = 2048, requires = "shading", value_parser = clap::value_parser!(u32).range(8..))]
+    pub samples: u32,
     /// One JSON object on stdout instead of the table
     #[arg(long)]
     pub json: bool,

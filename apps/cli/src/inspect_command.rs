@@ -6,8 +6,10 @@ use crate::convert_content::{Content, Kind, Reading};
 use crate::environment_input::{Source, read_file};
 use crate::environments::expand;
 use crate::inspect_report::{FacesReport, LevelReport, Report, TextureReport};
+use crate::inspect_scene::SceneReport;
 use crate::output;
 use crate::record::StatisticsRecord;
+use crate::scene_input::SceneSource;
 use anyhow::{Context, Result, anyhow};
 use lumisphere::image::{CubeLayout, Environment, Picture, cube_from_flat, statistics};
 use lumisphere::sphere::{Grid, Projection, guess_projection};
@@ -18,6 +20,11 @@ use std::path::Path;
 /// Shows what is in a file.
 pub(crate) fn run(args: &InspectArgs) -> Result<()> {
     let limits = Limits { max_bytes: args.common.max_memory };
+    if let Some(source) = SceneSource::of_path(&args.file)? {
+        let report = SceneReport::of(&source, limits.max_bytes)?;
+        let place = args.file.display().to_string();
+        return if args.json { output::json(&report.json()) } else { output::text(&report.text(&place)) };
+    }
     let report = inspect(args, limits).with_context(|| args.file.display().to_string())?;
     if args.json { output::json(&report) } else { output::text(&report.text(&args.file)) }
 }

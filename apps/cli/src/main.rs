@@ -1,4 +1,4 @@
-//! The `lumisphere` command: bakes, inspects and verifies image-based lighting, compares pictures.
+//! The `lumisphere` command: bakes, inspects and verifies image-based lighting, renders and compares pictures.
 
 mod args;
 mod bake_command;
@@ -19,12 +19,16 @@ mod formats_command;
 mod formats_report;
 mod inspect_command;
 mod inspect_report;
+mod inspect_scene;
 mod model_input;
 mod output;
 mod preview;
 mod progress;
 mod record;
+mod render;
 mod resume;
+mod scene_input;
+mod shading;
 mod summary;
 mod target_plan;
 mod targets_command;
@@ -89,13 +93,17 @@ fn run(command: Command) -> Result<ExitCode> {
                 return Ok(ExitCode::from(OVER_CONTRACT));
             }
         }
-        Command::Brdf(args) => brdf::run(&args)?,
         Command::Compare(args) => {
             set_threads(args.common.threads)?;
             if !compare::run(&args)? {
                 return Ok(ExitCode::from(OVER_CONTRACT));
             }
         }
+        Command::Render(args) => {
+            set_threads(args.common.threads)?;
+            render::run(&args)?;
+        }
+        Command::Brdf(args) => brdf::run(&args)?,
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "lumisphere", &mut text);

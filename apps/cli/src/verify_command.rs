@@ -6,7 +6,7 @@ use crate::output::{self, HEADING};
 use crate::progress::{Show, bar, step_name};
 use crate::timings::Timings;
 use crate::verify_report::Report;
-use crate::{verify_foreign, verify_own};
+use crate::{shading, verify_foreign, verify_own};
 use anyhow::{Result, bail};
 use lumisphere::bake::Step;
 use serde_json::json;
@@ -17,6 +17,10 @@ const STEPS: u64 = 16;
 
 /// Measures a bake, several, or a file; false if an error is over the contract.
 pub(crate) fn run(args: &VerifyArgs) -> Result<bool> {
+    let Some(path) = &args.path else {
+        shading::run(args)?;
+        return Ok(true);
+    };
     let timings = Timings::start();
     let source = one_source(&args.environment)?;
     let bar = bar(STEPS, if args.json { Show::Never } else { Show::OnTerminal });
@@ -24,15 +28,15 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<bool> {
         bar.set_message(step_name(step));
         bar.inc(1);
     };
-    let is_file = args.path.is_file();
+    let is_file = path.is_file();
     if !is_file {
-        check_no_foreign(args)?;
+        check_no_foreign(args, path)?;
     }
-    let paths = if is_file { vec![args.path.clone()] } else { verify_own::folders(&args.path)? };
+    let paths = if is_file { vec![path.clone()] } else { verify_own::folders(path)? };
     let mut reports: Vec<(PathBuf, Report)> = Vec::new();
     for path in paths {
         let report = if is_file {
-            verify_foreign::measure(args, &source, &progress)
+            verify_foreign::measure(&path, args, &source, &progress)
         } else {
             verify_own::measure(&path, &source, args, &progress)
         };
@@ -41,16 +45,16 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<bool> {
     bar.finish_and_clear();
     let passed = reports.iter().all(|(_, report)| report.passed);
     if args.json {
-        output::json(&json_of(&args.path, &reports, passed)?)?;
+        output::json(&json_of(path, &reports, passed)?)?;
     } else {
         let seconds = timings.total().as_secs_f64();
-        output::text(&text(&args.path, &reports, seconds))?;
+        output::text(&text(path, &reports, seconds))?;
     }
     Ok(passed)
 }
 
 /// A folder's bake.json says all of it.
-fn check_no_foreign(args: &VerifyArgs) -> Result<()> {
+fn check_no_foreign(args: &VerifyArgs, path: &Path) -> Result<()> {
     let given = &args.foreign;
     let any = given.target.is_some()
         || given.curve.is_some()
@@ -61,7 +65,7 @@ fn check_no_foreign(args: &VerifyArgs) -> Result<()> {
     if any {
         bail!(
             "{}: --target, --curve, --turn, --holds, --layout and --faces are for a file; a folder has its bake.json",
-            args.path.display()
+            path.display()
         );
     }
     Ok(())

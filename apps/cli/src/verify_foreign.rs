@@ -21,11 +21,17 @@ use lumisphere::sphere::{AxisTurn, Grid, Projection, Rotation};
 use lumisphere::target::{IrradianceUnit, Target, target};
 use lumisphere_codec::{FileFormat, Limits, detect};
 use std::f64::consts::PI;
+use std::path::Path;
 
 /// Measures one file.
-pub(crate) fn measure(args: &VerifyArgs, source: &Source, progress: &(dyn Fn(Step) + Sync)) -> Result<Report> {
+pub(crate) fn measure(
+    path: &Path,
+    args: &VerifyArgs,
+    source: &Source,
+    progress: &(dyn Fn(Step) + Sync),
+) -> Result<Report> {
     let limits = Limits { max_bytes: args.common.max_memory };
-    let content = read(args, limits).with_context(|| args.path.display().to_string())?;
+    let content = read(path, limits).with_context(|| path.display().to_string())?;
     let texels =
         content.texels.map(StoredTexels::Texture).ok_or_else(|| anyhow!("found a picture, expected a texture"))?;
     let target = known_target(args)?;
@@ -49,8 +55,8 @@ pub(crate) fn measure(args: &VerifyArgs, source: &Source, progress: &(dyn Fn(Ste
     Ok(report)
 }
 
-fn read(args: &VerifyArgs, limits: Limits) -> Result<Content> {
-    let bytes = read_file(&args.path, limits)?;
+fn read(path: &Path, limits: Limits) -> Result<Content> {
+    let bytes = read_file(path, limits)?;
     match detect(&bytes) {
         Some(format) if format.is_texture() => {}
         Some(format @ (FileFormat::Hdr | FileFormat::Exr | FileFormat::Png)) => {

@@ -9,9 +9,20 @@ use tempfile::tempdir;
 fn help_lists_every_command() {
     let folder = tempdir().unwrap();
     let help = succeed(folder.path(), &["--help"]);
-    for name in
-        ["bake", "targets", "convert", "formats", "inspect", "verify", "brdf", "dfg", "compare", "completions", "man"]
-    {
+    for name in [
+        "bake",
+        "targets",
+        "convert",
+        "formats",
+        "inspect",
+        "verify",
+        "compare",
+        "render",
+        "brdf",
+        "dfg",
+        "completions",
+        "man",
+    ] {
         assert!(help.lines().any(|l| l.trim_start().starts_with(name)), "{name} in {help}");
         assert!(succeed(folder.path(), &[name, "--help"]).contains("Usage: lumisphere"), "{name}");
     }

@@ -19,6 +19,7 @@ mod level_kernel;
 mod monte_carlo;
 mod quadrature;
 mod settings;
+pub mod shading;
 mod source;
 mod spectral;
 mod split;

@@ -35,6 +35,8 @@ pub(super) const TABLE: &[Row] = &[
     library("lumisphere_image", &["lumisphere_sphere"]),
     library("lumisphere_codec", &["lumisphere_sphere", "lumisphere_image"]),
     library("lumisphere_compare", &["lumisphere_image"]),
+    library("lumisphere_scene", &["lumisphere_sphere", "lumisphere_image", "lumisphere_bsdf"]),
+    library("lumisphere_trace", &["lumisphere_sphere", "lumisphere_image", "lumisphere_bsdf", "lumisphere_scene"]),
     library("lumisphere_bake", &["lumisphere_sphere", "lumisphere_sh", "lumisphere_bsdf", "lumisphere_image"]),
     library(
         "lumisphere_target",
@@ -57,7 +59,9 @@ pub(super) const TABLE: &[Row] = &[
             "lumisphere_codec",
             "lumisphere_bake",
             "lumisphere_compare",
+            "lumisphere_scene",
             "lumisphere_target",
+            "lumisphere_trace",
         ],
     ),
     Row { name: "lumisphere_testkit", role: Role::TestSupport, may_use: &["lumisphere_sphere", "lumisphere_image"] },

@@ -21,8 +21,8 @@ impl Sheen {
     pub(super) fn new(color: Rgb, perceptual_roughness: PerceptualRoughness, tables: &AlbedoTables) -> Option<Self> {
         let color = color.map(unit);
         let strongest = color.iter().fold(0.0, |a, &b| f64::max(a, b));
-        let row = tables.sheen_row(perceptual_roughness);
-        (strongest > 0.0).then(|| Self { color, strongest, alpha: perceptual_roughness.to_alpha(), row })
+        let alpha = perceptual_roughness.to_alpha();
+        (strongest > 0.0).then(|| Self { color, strongest, alpha, row: tables.sheen_row(perceptual_roughness) })
     }
 
     /// f in sr⁻¹, for directions above the horizon.

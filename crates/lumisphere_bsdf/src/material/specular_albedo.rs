@@ -68,11 +68,11 @@ impl SpecularAlbedo {
 
     /// The mean over the azimuth of g(scale, bias) at n·v, by the trapezoidal rule.
     pub(super) fn mean(&self, n_dot_v: f64, g: impl Fn([f64; 2]) -> f64) -> f64 {
+        if let [row] = self.rows.as_slice() {
+            return g(value_at(row, n_dot_v, mix_pairs));
+        }
         let values: Vec<f64> = self.rows.iter().map(|row| g(value_at(row, n_dot_v, mix_pairs))).collect();
         let last = values.len() - 1;
-        if last == 0 {
-            return values[0];
-        }
         let azimuth = |row: usize| azimuth_of(row as f64 / last as f64, self.squeeze);
         let panel = |row: usize| 0.5 * (values[row] + values[row + 1]) * (azimuth(row + 1) - azimuth(row));
         (0..last).map(panel).sum::<f64>() / FRAC_PI_2
@@ -82,7 +82,10 @@ impl SpecularAlbedo {
     pub(super) fn average(&self, g: impl Fn([f64; 2]) -> f64) -> f64 {
         let count = self.rows[0].len();
         let weights = average_weights(count).into_iter().enumerate();
-        weights.map(|(i, weight)| weight * self.mean(node(i, count), &g)).sum()
+        match self.rows.as_slice() {
+            [row] => weights.map(|(i, weight)| weight * g(row[i])).sum(),
+            _ => weights.map(|(i, weight)| weight * self.mean(node(i, count), &g)).sum(),
+        }
     }
 }
 

@@ -1,0 +1,122 @@
+//! `lumisphere render`: a scene as a picture.
+
+mod args;
+mod outlook;
+mod picture_file;
+mod report;
+mod size;
+mod surroundings;
+mod tracing;
+mod view;
+
+pub(crate) use args::RenderArgs;
+
+use crate::files::Stage;
+use crate::output;
+use crate::scene_input::SceneSource;
+use anyhow::{Result, bail};
+use args::LightPathsChoice;
+use lumisphere::bsdf::AlbedoTables;
+use lumisphere::scene::{Camera, Scene};
+use lumisphere::trace::{TraceSettings, Visibility, World};
+use lumisphere_codec::Limits;
+use picture_file::{PictureFile, Shown};
+use size::Size;
+use std::path::PathBuf;
+use surroundings::Surroundings;
+use tracing::{Task, Traced, trace};
+use view::{View, turned};
+
+/// Renders as the arguments say.
+pub(crate) fn run(args: &RenderArgs) -> Result<()> {
+    if !args.reference {
+        bail!("only the path tracer is there: add --reference");
+    }
+    let settings = settings(args)?;
+    let source = SceneSource::parse(&args.scene)?;
+    let path = args.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.png", source.name())));
+    let file = PictureFile::new(&path)?;
+    let scene = source.load(args.common.max_memory)?;
+    let (camera, size) = view(args, &scene)?;
+    let limits = Limits { max_bytes: args.common.max_memory };
+    let surroundings = Surroundings::new(&args.light, &scene, limits)?;
+    output::text(&format!("  light     {}\n{}", surroundings.text, ignored(args, &scene)))?;
+    let tables = AlbedoTables::compute();
+    let world = World::new(&scene, surroundings.light, &tables)?;
+    let stage = Stage::cleared_on_interrupt()?;
+    let task = Task { world: &world, camera, size: [size.width, size.height], settings, label: String::new() };
+    match args.view.turntable {
+        None => {
+            let traced = trace(&task, &args.effort, &stage)?;
+            write(args, &file, None, args.display.exposure, &traced, &stage).map(drop)
+        }
+        Some(count) => turntable(args, task, usize::from(count), &file, &stage),
+    }
+}
+
+fn settings(args: &RenderArgs) -> Result<TraceSettings> {
+    let (light, paths) = (&args.light, args.light.light_paths);
+    if light.bounces.is_some() && paths != LightPathsChoice::Full {
+        bail!("--bounces goes with --light-paths full: the others scatter light once");
+    }
+    if light.no_shadows && paths != LightPathsChoice::Environment {
+        bail!("--no-shadows goes with --light-paths environment");
+    }
+    Ok(TraceSettings {
+        target: tracing::target(&args.effort),
+        light_paths: paths.value(),
+        bounces: light.bounces,
+        visibility: if light.no_shadows { Visibility::Ignored } else { Visibility::Traced },
+        seed: args.effort.seed,
+        ..TraceSettings::reference()
+    })
+}
+
+fn view(args: &RenderArgs, scene: &Scene) -> Result<(Camera, Size)> {
+    let view = args.view.camera.as_ref();
+    let of_scene = View::of_scene(view, scene)?;
+    let size = args.view.size.unwrap_or_else(|| Size::of_camera(of_scene));
+    Ok((View::camera(view, scene, size.aspect())?, size))
+}
+
+/// A line where something of the scene is not shown as its file has it.
+fn ignored(args: &RenderArgs, scene: &Scene) -> String {
+    match scene.notes.as_slice() {
+        [] => String::new(),
+        [one] => format!("  note      {}\n", one.text),
+        several => format!("  notes     {}; `lumisphere inspect {}` lists them\n", several.len(), args.scene),
+    }
+}
+
+/// The camera around the scene, counter-clockwise seen from above.
+fn turntable(args: &RenderArgs, task: Task, count: usize, file: &PictureFile, stage: &Stage) -> Result<()> {
+    let center = task.world.scene().bounds().center();
+    let mut exposure = args.display.exposure;
+    for number in 0..count {
+        let camera = turned(&task.camera, center, number as f64 / count as f64);
+        let label = format!("{}/{count} ", number + 1);
+        let traced = trace(&Task { camera, label, ..task }, &args.effort, stage)?;
+        // All pictures get the exposure of the first.
+        exposure = write(args, file, Some(number), exposure, &traced, stage)?;
+    }
+    Ok(())
+}
+
+/// Writes the files of a picture and says so; gives the exposure of a display picture.
+fn write(
+    args: &RenderArgs,
+    file: &PictureFile,
+    number: Option<usize>,
+    exposure: Option<f64>,
+    traced: &Traced,
+    stage: &Stage,
+) -> Result<Option<f64>> {
+    let encoded =
+        file.encode(&traced.picture, number, Shown { exposure, tone_map: args.display.tonemap.value() }, &args.aov)?;
+    let files: Vec<(&str, &[u8])> =
+        encoded.files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
+    stage.write(&file.folder, &files)?;
+    stage.publish()?;
+    output::text(&report::line(&file.path(number), traced, &encoded))?;
+    Ok(encoded.exposure)
+}

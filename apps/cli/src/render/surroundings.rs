@@ -1,0 +1,96 @@
+//! The environment that a scene is rendered in.
+
+use super::args::LightArgs;
+use crate::builtin_source::PREFIX;
+use crate::choices::FaceSideChoice;
+use crate::convert_command::one_source;
+use crate::environment_input::{Adjustments, Source, load, prepare};
+use crate::timings::Timings;
+use crate::values::{LowerHemisphere, Repair};
+use anyhow::{Context, Result};
+use lumisphere::image::{Environment, adjust_exposure, resample};
+use lumisphere::scene::Scene;
+use lumisphere::sphere::{Grid, Projection, Rotation};
+use lumisphere::trace::EnvironmentLight;
+use lumisphere_codec::Limits;
+
+/// Where nothing is said and the scene has no light.
+const DEFAULT: &str = "studio";
+/// The word for no environment.
+const NONE: &str = "none";
+
+/// The environment as a light, and what is said of it.
+pub(crate) struct Surroundings {
+    pub light: Option<EnvironmentLight>,
+    /// What it is, and why.
+    pub text: String,
+}
+
+impl Surroundings {
+    /// As the arguments say, or as the scene needs it.
+    pub(crate) fn new(args: &LightArgs, scene: &Scene, limits: Limits) -> Result<Self> {
+        let own = own_light(scene);
+        let (name, text) = match (args.environment.as_deref(), own) {
+            (Some(NONE), _) => return Ok(Self { light: None, text: "no environment".to_owned() }),
+            (Some(name), _) => (name.to_owned(), name.to_owned()),
+            (None, Some(own)) => {
+                return Ok(Self { light: None, text: format!("{own}, no environment (--env adds one)") });
+            }
+            (None, None) => {
+                let name = format!("{PREFIX}{DEFAULT}");
+                let text = format!("{name}, as the scene has no light of its own (--env names another)");
+                (name, text)
+            }
+        };
+        let source = one_source(&name)?;
+        let light = light(&source, args, limits).with_context(|| source.place())?;
+        Ok(Self { light: Some(light), text })
+    }
+}
+
+/// What lights a scene by itself, in words. What glows by a texture is taken for a lamp that is shown, not for light.
+fn own_light(scene: &Scene) -> Option<String> {
+    let count = scene.lights.len();
+    if count > 0 {
+        return Some(format!("{count} light{} of the scene", if count == 1 { "" } else { "s" }));
+    }
+    let glows = |i: usize| {
+        scene.materials.get(i).is_some_and(|m| {
+            m.textures.emissive.is_none()
+                && m.factors.emissive_strength > 0.0
+                && m.factors.emissive.iter().any(|c| *c > 0.0)
+        })
+    };
+    scene.instances.iter().any(|i| glows(i.material)).then(|| "surfaces of the scene that emit light".to_owned())
+}
+
+fn light(source: &Source, args: &LightArgs, limits: Limits) -> Result<EnvironmentLight> {
+    let as_it_is = Adjustments {
+        layout: None,
+        faces: FaceSideChoice::Inside,
+        repair: Repair::Neighbours,
+        lower_hemisphere: LowerHemisphere::Keep,
+        exposure: 0.0,
+        illuminance: None,
+    };
+    let timings = Timings::start();
+    let prepared = prepare(load(source, &as_it_is, limits, &timings)?, &as_it_is, &timings)?;
+    let mut panorama = panorama(prepared.environment)?;
+    if args.env_intensity != 1.0 {
+        adjust_exposure(&mut panorama, args.env_intensity.log2())?;
+    }
+    let turn = match args.turn_env {
+        0.0 => Rotation::IDENTITY,
+        degrees => Rotation::from_yaw_pitch_roll(degrees.to_radians(), 0.0, 0.0),
+    };
+    Ok(EnvironmentLight::new(panorama, args.env_filter.value(), turn)?)
+}
+
+/// As a lat-long of about as many texels.
+fn panorama(environment: Environment) -> Result<Environment> {
+    if environment.projection() == Projection::LatLong {
+        return Ok(environment);
+    }
+    let rows = ((environment.grid().texel_count() as f64 / 2.0).sqrt().ceil() as usize).max(1);
+    Ok(resample(&environment, Grid::new(Projection::LatLong, 2 * rows, rows)?, &Rotation::IDENTITY))
+}

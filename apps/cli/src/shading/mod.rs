@@ -1,0 +1,46 @@
+//! `lumisphere verify --shading`: how far shading with baked light is from the truth, and why.
+
+mod measure;
+mod report;
+mod spheres;
+mod truth;
+
+use crate::args::VerifyArgs;
+use crate::choices::FaceSideChoice;
+use crate::convert_command::one_source;
+use crate::environment_input::{Adjustments, load, prepare};
+use crate::output;
+use crate::progress::{Show, bar};
+use crate::timings::Timings;
+use crate::values::{LowerHemisphere, Repair};
+use anyhow::{Context, Result};
+use lumisphere_codec::Limits;
+use measure::{ROUGHNESSES, Stage};
+use report::Report;
+
+/// Measures spheres in the environment and prints the tables.
+pub(crate) fn run(args: &VerifyArgs) -> Result<()> {
+    let timings = Timings::start();
+    let source = one_source(&args.environment)?;
+    let adjustments = Adjustments {
+        layout: args.foreign.layout,
+        faces: args.foreign.faces.unwrap_or(FaceSideChoice::Inside),
+        repair: Repair::Neighbours,
+        lower_hemisphere: LowerHemisphere::Keep,
+        exposure: 0.0,
+        illuminance: None,
+    };
+    let limits = Limits { max_bytes: args.common.max_memory };
+    let prepared = load(&source, &adjustments, limits, &timings)
+        .and_then(|loaded| prepare(loaded, &adjustments, &timings))
+        .with_context(|| source.place())?;
+    let bar = bar(ROUGHNESSES.len() as u64 + 2, if args.json { Show::Never } else { Show::OnTerminal });
+    let told = |step: &str| {
+        bar.set_message(step.to_owned());
+        bar.inc(1);
+    };
+    let stage = Stage::set(&prepared.environment, args.samples, told)?;
+    let report = Report::of(&source.place(), &stage, &prepared.environment, args.samples)?;
+    bar.finish_and_clear();
+    if args.json { output::json(&report) } else { output::text(&report.text()) }
+}

@@ -1,0 +1,111 @@
+//! Everything a renderer needs to know.
+
+use crate::{Affine, Bounds, Camera, Light, Mesh, Note, SceneMaterial, Texture};
+use lumisphere_bsdf::Rgb;
+use lumisphere_sphere::{Rotation, Vec3};
+use std::collections::HashMap;
+
+/// Meshes and where they stand, what they are made of, what lights them and who looks on.
+///
+/// World space is that of CONVENTIONS.md: right-handed, +Y up, metres. All indices are in range in every scene that this crate
+/// made.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Scene {
+    /// As its file calls it, or empty.
+    pub name: String,
+    /// Geometry, each once.
+    pub meshes: Vec<Mesh>,
+    /// Where it stands.
+    pub instances: Vec<Instance>,
+    /// What it is made of.
+    pub materials: Vec<SceneMaterial>,
+    /// Pictures of the materials.
+    pub textures: Vec<Texture>,
+    /// Lights that are not meshes.
+    pub lights: Vec<Light>,
+    /// Cameras, in the order of the file.
+    pub cameras: Vec<Camera>,
+    /// The environment that the file asks for.
+    pub environment: Option<ImageBasedLight>,
+    /// What was left out, repaired or replaced.
+    pub notes: Vec<Note>,
+}
+
+/// A mesh at a place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instance {
+    /// As its file calls it, or empty.
+    pub name: String,
+    /// Index into the scene's meshes.
+    pub mesh: usize,
+    /// Index into the scene's materials.
+    pub material: usize,
+    /// From the mesh's space to the world's. Where [`Affine::is_mirrored`], triangles run clockwise in the world.
+    pub world_from_local: Affine,
+}
+
+/// What EXT_lights_image_based says of the environment. Its pictures are not read: a note says so.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImageBasedLight {
+    /// As its file calls it, or empty.
+    pub name: String,
+    /// Of the environment.
+    pub rotation: Rotation,
+    /// Factor of its radiance.
+    pub intensity: f64,
+    /// Nine coefficients of its irradiance, as stored.
+    pub irradiance_coefficients: [Rgb; 9],
+    /// Side of a face of the first level in texels.
+    pub specular_image_size: usize,
+    /// Levels of the prefiltered cube.
+    pub level_count: usize,
+}
+
+impl Scene {
+    /// The box around all instances (around the corners of the boxes of their meshes).
+    pub fn bounds(&self) -> Bounds {
+        let mut boxes: HashMap<usize, Bounds> = HashMap::new();
+        let mut bounds = Bounds::EMPTY;
+        for instance in &self.instances {
+            let Some(mesh) = self.meshes.get(instance.mesh) else { continue };
+            let local = *boxes.entry(instance.mesh).or_insert_with(|| mesh.bounds());
+            if !local.is_empty() {
+                bounds =
+                    local.corners().into_iter().map(|p| instance.world_from_local.point(p)).fold(bounds, Bounds::with);
+            }
+        }
+        bounds
+    }
+
+    /// Triangles of all instances.
+    pub fn triangle_count(&self) -> usize {
+        self.instances.iter().filter_map(|i| self.meshes.get(i.mesh)).map(|m| m.triangles.len()).sum()
+    }
+
+    /// The first camera of the scene, or one that frames it in a picture of width over height `aspect`.
+    pub fn camera(&self, aspect: f64) -> Camera {
+        self.cameras.first().cloned().unwrap_or_else(|| Camera::framing(&self.bounds(), aspect))
+    }
+
+    /// Adds a mesh with a material at a place, for scenes made in code.
+    pub(crate) fn place(&mut self, name: &str, mesh: usize, material: usize, world_from_local: Affine) {
+        self.instances.push(Instance { name: name.to_owned(), mesh, material, world_from_local });
+    }
+
+    /// Adds a mesh and gives its index.
+    pub(crate) fn add_mesh(&mut self, mesh: Mesh) -> usize {
+        self.meshes.push(mesh);
+        self.meshes.len() - 1
+    }
+
+    /// Adds a material and gives its index.
+    pub(crate) fn add_material(&mut self, material: SceneMaterial) -> usize {
+        self.materials.push(material);
+        self.materials.len() - 1
+    }
+
+    /// Adds a camera.
+    pub(crate) fn add_camera(&mut self, eye: Vec3, target: Vec3, vertical_degrees: f64) {
+        self.cameras.push(Camera::looking_at(eye, target, vertical_degrees.to_radians()));
+    }
+}

@@ -1,0 +1,125 @@
+//! A place on a surface that a path has come to.
+
+use crate::finish::{Finish, Scatter};
+use crate::world::World;
+use lumisphere_bsdf::{Bsdf, Rgb};
+use lumisphere_scene::SceneMaterial;
+use lumisphere_sphere::vector::{cross, dot, scale, sub, try_normalize};
+use lumisphere_sphere::{Frame, Vec3};
+use std::borrow::Cow;
+
+/// Where a ray met a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) triangle: u32,
+    pub(crate) at: [f32; 2],
+    pub(crate) distance: f64,
+}
+
+/// The surface at a place, with what is needed to scatter there.
+#[derive(Debug)]
+pub(crate) struct Vertex<'w> {
+    pub(crate) place: Place,
+    pub(crate) point: [f32; 3],
+    /// Unit normal of the triangle: outwards, or to the viewer for a surface without an inside.
+    pub(crate) normal: Vec3,
+    pub(crate) material: &'w SceneMaterial,
+    /// Of shading: its normal is on the viewer's side just where `normal` is.
+    pub(crate) frame: Frame,
+    /// To the viewer, in `frame`.
+    pub(crate) wo: Vec3,
+    pub(crate) finish: Cow<'w, Finish>,
+}
+
+/// Cosine of the viewer to a shading normal that would turn away from it, after it has been bent back.
+const BENT: f64 = 1e-3;
+
+impl<'w> Vertex<'w> {
+    /// What a ray that came along the unit `direction` sees.
+    pub(crate) fn new(world: &'w World, place: Place, direction: Vec3) -> Self {
+        let geometry = world.geometry();
+        let part = geometry.part(place.triangle);
+        let local = geometry.surface_point(place.triangle, place.at);
+        let (finish, bump) = world.finish(part.instance.material, &local);
+        let wo = scale(direction, -1.0);
+        let outward = geometry.normal(place.triangle);
+        let turned = !matches!(finish.scatter, Scatter::Body(_)) && dot(outward, wo) < 0.0;
+        let side = if turned { -1.0 } else { 1.0 };
+        let normal = scale(outward, side);
+        let map = &part.instance.world_from_local;
+        let smooth = try_normalize(map.normal(local.normal)).unwrap_or(outward);
+        let tangent = local.tangent.map(|[x, y, z, w]| (map.vector([x, y, z]), w));
+        let mirrored = if map.is_mirrored() { -1.0 } else { 1.0 };
+        let unbent = shading_frame(smooth, tangent.map(|(t, w)| (t, w * mirrored)), bump);
+        let frame = facing(Frame { normal: scale(unbent.normal, side), ..unbent }, wo, dot(normal, wo));
+        Self {
+            place,
+            point: geometry.point(place.triangle, place.at),
+            normal,
+            material: part.material,
+            wo: frame.local_from_world(wo),
+            frame,
+            finish,
+        }
+    }
+
+    /// f |cos θ| for light from `wi`, and the density with which [`Vertex::sample`] goes there; `None` where the sides of shading and
+    /// of the triangle differ, so that no light leaks.
+    pub(crate) fn scattered(&self, wi: Vec3) -> Option<(Rgb, f64)> {
+        let local = self.local(wi)?;
+        let f = self.finish.scatter.eval(self.wo, local);
+        let cosine = local[2].abs();
+        Some((f.map(|f| f * cosine), self.finish.scatter.pdf(self.wo, local)))
+    }
+
+    /// A direction to go on, f |cos θ| / pdf, and the density.
+    pub(crate) fn sample(&self, u: [f64; 3]) -> Option<(Vec3, Rgb, f64)> {
+        let sample = self.finish.scatter.sample(self.wo, u)?;
+        let wi = try_normalize(self.frame.world_from_local(sample.wi))?;
+        self.local(wi)?;
+        Some((wi, sample.weight, sample.pdf))
+    }
+
+    /// Whether the viewer is inside the body that this surface bounds.
+    pub(crate) fn seen_from_inside(&self) -> bool {
+        self.wo[2] < 0.0 && matches!(self.finish.scatter, Scatter::Body(_))
+    }
+
+    fn local(&self, wi: Vec3) -> Option<Vec3> {
+        let local = self.frame.local_from_world(wi);
+        (local[2] * dot(self.normal, wi) > 0.0).then_some(local)
+    }
+}
+
+/// The frame of shading about the outer normal: tangents from the mesh where it has them, the normal bent by `bump`.
+fn shading_frame(normal: Vec3, tangent: Option<(Vec3, f64)>, bump: Option<Vec3>) -> Frame {
+    let Some((tangent, handedness)) = tangent else { return Frame::from_normal(normal) };
+    let frame = frame_along(normal, tangent, handedness);
+    match bump.and_then(|bump| try_normalize(frame.world_from_local(bump))) {
+        Some(normal) => frame_along(normal, frame.tangent, handedness),
+        None => frame,
+    }
+}
+
+/// The frame whose tangent is nearest to `tangent`.
+fn frame_along(normal: Vec3, tangent: Vec3, handedness: f64) -> Frame {
+    match try_normalize(sub(tangent, scale(normal, dot(normal, tangent)))) {
+        Some(tangent) => Frame { tangent, bitangent: scale(cross(normal, tangent), handedness), normal },
+        None => Frame::from_normal(normal),
+    }
+}
+
+/// The frame with its normal bent so that the viewer is on the same side of it as of the triangle, whose cosine is `side`.
+fn facing(frame: Frame, wo: Vec3, side: f64) -> Frame {
+    let wanted = BENT.copysign(side);
+    let cosine = dot(frame.normal, wo);
+    if cosine * wanted >= BENT * BENT {
+        return frame;
+    }
+    let bent = sub(frame.normal, scale(wo, cosine - wanted));
+    try_normalize(bent).map_or(frame, |normal| frame_along(normal, frame.tangent, handedness(&frame)))
+}
+
+fn handedness(frame: &Frame) -> f64 {
+    1.0_f64.copysign(dot(cross(frame.normal, frame.tangent), frame.bitangent))
+}

@@ -1,0 +1,121 @@
+//! Light that is the same everywhere stays so.
+#![allow(clippy::unwrap_used)]
+
+mod worlds;
+
+use lumisphere_bsdf::{Material, PerceptualRoughness};
+use lumisphere_scene::{Camera, SceneMaterial, Volume};
+use lumisphere_trace::{LightPaths, LightSampling, TraceSettings, Visibility, World};
+use worlds::*;
+
+/// Four standard errors: one of 16000 right estimates is refused.
+const ERRORS: f64 = 4.0;
+/// Lambert's lobe is exact.
+const EXACT: f64 = 1e-4;
+/// What the albedo tables of the layered material leave (`furnace_holds_for_every_metallic` of the reflectance crate).
+const LAYERED: f64 = 2e-3;
+
+/// What slightly rough facets lose by masking in a few reflections.
+const ROUGH_GLASS: f64 = 5e-3;
+
+/// Inside a closed box of albedo ρ that emits Le everywhere, L = Le / (1 - ρ).
+#[test]
+fn closed() {
+    let tables = tables();
+    // Not by lights alone: near an edge 1/d² has no variance to test with.
+    for (albedo, sampling) in [(0.5, LightSampling::Combined), (0.8, LightSampling::Surfaces)] {
+        let material = SceneMaterial::plain("", Material { emissive: [1.0, 0.5, 0.0], ..matt(albedo) });
+        let scene = scene(sides([1.0, 2.0, 1.5], -1.0), material);
+        let world = World::new(&scene, None, &tables).unwrap();
+        let camera = Camera::looking_at([0.3, -0.2, 0.4], [1.0, 0.3, -0.5], 1.0);
+        let found = estimate(&world, &camera, 12, with_sampling(independent(64), sampling));
+        found.expect(0.5 / (1.0 - albedo), ERRORS, EXACT, 0.01, &format!("albedo {albedo}, {sampling:?}"));
+        assert_eq!(found.mean[2], 0.0);
+    }
+}
+
+/// With a limit of bounces the sum ends: Le Σ ρ^k.
+#[test]
+fn closed_with_a_limit_of_bounces() {
+    let tables = tables();
+    let material = SceneMaterial::plain("", Material { emissive: [1.0; 3], ..matt(0.5) });
+    let scene = scene(sides([1.0; 3], -1.0), material);
+    let world = World::new(&scene, None, &tables).unwrap();
+    let camera = Camera::looking_at([0.0; 3], [1.0, 0.3, -0.5], 1.0);
+    for (paths, bounces, expected) in [
+        (LightPaths::Full, Some(1), 1.5),
+        (LightPaths::Full, Some(3), 1.875),
+        (LightPaths::Direct, None, 1.5),
+        (LightPaths::Environment, None, 0.0),
+    ] {
+        let settings = TraceSettings { light_paths: paths, bounces, ..independent(64) };
+        let found = estimate(&world, &camera, 8, settings);
+        if expected == 0.0 {
+            assert_eq!(found.mean, [0.0; 3]);
+        } else {
+            found.expect(expected, ERRORS, EXACT, 0.02, &format!("{paths:?} {bounces:?}"));
+        }
+    }
+}
+
+fn white(change: impl Fn(&mut Material)) -> Material {
+    let mut material =
+        Material { metallic: 0.0, perceptual_roughness: PerceptualRoughness::clamped(0.5), ..Material::default() };
+    change(&mut material);
+    material
+}
+
+/// Under a sky of 1 everything white is 1, from both sides of thin things, and grey Lambert is its albedo.
+#[test]
+fn open() {
+    let tables = tables();
+    let rough = PerceptualRoughness::clamped;
+    let cases: [(&str, Material, f64, f64); 8] = [
+        ("Lambert", matt(1.0), 1.0, EXACT),
+        ("grey Lambert", matt(0.18), 0.18, EXACT),
+        ("dielectric", white(|_| ()), 1.0, LAYERED),
+        ("metal", white(|m| m.metallic = 1.0), 1.0, LAYERED),
+        ("half a smooth metal", white(|m| (m.metallic, m.perceptual_roughness) = (0.5, rough(0.1))), 1.0, LAYERED),
+        ("clear coat", white(|m| (m.clearcoat, m.clearcoat_perceptual_roughness) = (1.0, rough(0.2))), 1.0, LAYERED),
+        ("sheen", white(|m| (m.sheen_color, m.sheen_perceptual_roughness) = ([1.0; 3], rough(0.4))), 1.0, LAYERED),
+        ("thin transmission", white(|m| m.transmission = 0.7), 1.0, LAYERED),
+    ];
+    for (name, material, expected, accuracy) in cases {
+        let material = SceneMaterial { double_sided: true, ..SceneMaterial::plain(name, material) };
+        let scene = scene(vec![ground()], material);
+        let world = World::new(&scene, Some(uniform(1.0)), &tables).unwrap();
+        for eye in [[1.0, 2.0, 0.5], [1.0, -0.6, 0.5]] {
+            for (paths, visibility) in
+                [(LightPaths::Full, Visibility::Traced), (LightPaths::Environment, Visibility::Ignored)]
+            {
+                let settings = TraceSettings { light_paths: paths, visibility, ..independent(256) };
+                let found = estimate(&world, &spot_camera(eye, [0.0; 3]), 10, settings);
+                found.expect(expected, ERRORS, accuracy, 0.01, &format!("{name} from {eye:?}, {paths:?}"));
+            }
+        }
+    }
+}
+
+fn glass(p: f64) -> SceneMaterial {
+    let volume = Volume { thickness: 0.1, attenuation_distance: f64::INFINITY, attenuation_color: [1.0; 3] };
+    let factors = white(|m| {
+        m.transmission = 1.0;
+        m.perceptual_roughness = PerceptualRoughness::clamped(p);
+    });
+    SceneMaterial { volume: Some(volume), ..SceneMaterial::plain("glass", factors) }
+}
+
+/// A slab of clear glass is not seen in a furnace, whatever the angle.
+#[test]
+fn glass_vanishes() {
+    let tables = tables();
+    for (p, accuracy) in [(0.0, EXACT), (0.05, ROUGH_GLASS)] {
+        let scene = scene(sides([3.0, 0.2, 3.0], 1.0), glass(p));
+        let world = World::new(&scene, Some(uniform(1.0)), &tables).unwrap();
+        for eye in [[0.0, 5.0, 0.0], [4.0, 2.0, 0.5]] {
+            let camera = Camera::looking_at(eye, [0.1, 0.0, 0.2], 0.2);
+            let found = estimate(&world, &camera, 10, independent(64));
+            found.expect(1.0, ERRORS, accuracy, 0.02, &format!("p = {p} from {eye:?}"));
+        }
+    }
+}
