@@ -4,7 +4,7 @@
 //! may compile kernels, is not timed. The pictures' variance, over the square of their mean, is the error: neither program is biased
 //! (test `mitsuba`). Time times error is what it costs to reach an error of 1, if noise falls as it does for independent samples; ours
 //! are Owen-scrambled Sobol points, the default, Mitsuba's its default too, independent.
-#![allow(clippy::print_stdout, clippy::unwrap_used)]
+#![allow(clippy::print_stdout, clippy::print_stderr, clippy::unwrap_used)]
 
 #[path = "../../tests/mitsuba/judge.rs"]
 mod judge;
@@ -80,8 +80,8 @@ fn compare(scene: &Twin, variants: &[&str]) {
         }
     }
     println!(
-        "\n{:<10} {:<14} {:>10} {:>16} {:>12} {:>14}  {}",
-        scene.name, "", "s", "Msamples/s", "error", "s to 1 % error", "over ours (rounds)"
+        "\n{:<10} {:<14} {:>10} {:>16} {:>12} {:>14}  over ours (rounds)",
+        scene.name, "", "s", "Msamples/s", "error", "s to 1 % error"
     );
     let names = std::iter::once("lumisphere").chain(variants.iter().copied());
     for (name, rounds) in names.zip(&measured) {
