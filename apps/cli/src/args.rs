@@ -373,6 +373,9 @@ pub(crate) struct VerifyArgs {
     /// Samples of the truth at each point, with --shading
     #[arg(long, value_name = "N", default_value_t = 2048, requires = "shading", value_parser = clap::value_parser!(u32).range(8..))]
     pub samples: u32,
+    /// Picture of spheres as rendered, their truth and the difference, a .png, with --shading
+    #[arg(short, long, value_name = "FILE", requires = "shading")]
+    pub output: Option<PathBuf>,
     /// One JSON object on stdout instead of the table
     #[arg(long)]
     pub json: bool,

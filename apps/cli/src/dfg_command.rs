@@ -2,9 +2,9 @@
 
 use crate::args::DfgArgs;
 use crate::choices::DfgChoice;
-use crate::files::Stage;
+use crate::files::write_one;
 use crate::output;
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Result, anyhow, bail};
 use lumisphere::bsdf::model::{Range, Sides};
 use lumisphere::bsdf::{Albedo, AlbedoTable, AlbedoTables, DfgTable, MODELS, Model, Rgb, model_named};
 use lumisphere::sh::ShRgb;
@@ -35,11 +35,7 @@ pub(crate) fn run(args: &DfgArgs) -> Result<()> {
         None => split_sum(args, path)?,
         Some(model) => albedo(model, args, path)?,
     };
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let name = path.file_name().and_then(|name| name.to_str()).with_context(|| path.display().to_string())?;
-    let stage = Stage::cleared_on_interrupt()?;
-    stage.write(folder, &[(name, &bytes)])?;
-    stage.publish()?;
+    write_one(path, &bytes)?;
     let size = args.size;
     output::text(&format!("{}: {size}x{size}, {content}, {}\n", path.display(), output::size_text(bytes.len())))
 }

@@ -7,7 +7,7 @@
 //! then: while files are being renamed there is no record of them.
 
 use crate::record;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -163,6 +163,27 @@ fn temporary(folder: &Path) -> std::io::Result<NamedTempFile> {
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder)
+}
+
+/// Writes one file as a whole or not at all.
+pub(crate) fn write_one(path: &Path, bytes: &[u8]) -> Result<()> {
+    let name = path.file_name().and_then(|name| name.to_str());
+    let name =
+        name.with_context(|| format!("{}: expected the name of a file, of Unicode characters", path.display()))?;
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let stage = Stage::cleared_on_interrupt()?;
+    stage.write(folder, &[(name, bytes)])?;
+    stage.publish()
+}
+
+/// Refuses a path that does not end in .png.
+pub(crate) fn expect_png(path: &Path) -> Result<()> {
+    match path.extension().and_then(|e| e.to_str()) {
+        Some(extension) if extension.eq_ignore_ascii_case("png") => Ok(()),
+        found => {
+            bail!("{}: found the extension {:?}, expected .png", path.display(), found.unwrap_or_default())
+        }
+    }
 }
 
 #[cfg(test)]

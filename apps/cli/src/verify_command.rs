@@ -21,6 +21,9 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<bool> {
         shading::run(args)?;
         return Ok(true);
     };
+    if args.output.is_some() {
+        bail!("-o goes with --shading");
+    }
     let timings = Timings::start();
     let source = one_source(&args.environment)?;
     let bar = bar(STEPS, if args.json { Show::Never } else { Show::OnTerminal });

@@ -14,8 +14,14 @@ pub(super) enum Line {
 }
 
 /// Shown, but not run here: they would run themselves, or take long and need other tools.
-const NOT_RUN: [&str; 4] =
-    ["cargo xtask test", "cargo xtask test-engines", "cargo xtask test-mitsuba", "cargo xtask bench-peers"];
+const NOT_RUN: [&str; 6] = [
+    "cargo xtask test",
+    "cargo xtask test-engines",
+    "cargo xtask test-mitsuba",
+    "cargo xtask bench-peers",
+    "cargo xtask bench-mitsuba",
+    "cargo xtask bench-rays",
+];
 /// How the README starts the command without installing it.
 const CARGO_RUN: &str = "cargo run --release -- ";
 

@@ -16,9 +16,9 @@ mod style;
 mod thumbnail;
 
 use crate::args::BrdfArgs;
-use crate::files::Stage;
+use crate::files::{Stage, write_one};
 use crate::output;
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Result, anyhow, bail};
 use entry::Entry;
 use lumisphere::bsdf::{AlbedoTables, MODELS};
 use numbers::Numbers;
@@ -108,25 +108,16 @@ fn draw(args: &BrdfArgs, entries: &[Entry], path: &Path) -> Result<()> {
         PictureFile::Svg => drawing.svg().into_bytes(),
         PictureFile::Png => raster::png(&drawing)?,
     };
-    write(path, &bytes)
+    write_one(path, &bytes)
 }
 
 /// Writes the thumbnail of every model at its defaults.
 fn thumbnails(folder: &Path) -> Result<()> {
-    let tables = AlbedoTables::compute();
+    let (tables, stage) = (AlbedoTables::compute(), Stage::cleared_on_interrupt()?);
     for model in MODELS {
         let entry = Entry::new(model.name, [], &tables)?;
         let svg = thumbnail::draw(&entry)?;
-        write(&folder.join(format!("{}.svg", model.name)), svg.as_bytes())?;
+        stage.write(folder, &[(format!("{}.svg", model.name).as_str(), svg.as_bytes())])?;
     }
-    Ok(())
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<()> {
-    let name = path.file_name().and_then(|name| name.to_str());
-    let name = name.with_context(|| format!("{}: expected the name of a file", path.display()))?;
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let stage = Stage::default();
-    stage.write(folder, &[(name, bytes)])?;
     stage.publish()
 }

@@ -9,7 +9,7 @@ mod report;
 
 pub(crate) use args::CompareArgs;
 
-use crate::files::Stage;
+use crate::files::{expect_png, write_one};
 use crate::output;
 use anyhow::{Context, Result, anyhow, bail};
 use args::MetricChoice;
@@ -17,12 +17,11 @@ use input::Pictures;
 use lumisphere::compare::Pair;
 use measure::{Measured, Settings, measure};
 use report::{PictureReport, Report};
-use std::path::Path;
 
 /// Compares as the arguments say; false if a figure is beyond its limit.
 pub(crate) fn run(args: &CompareArgs) -> Result<bool> {
     if let Some(path) = &args.output {
-        check_output(path).with_context(|| path.display().to_string())?;
+        expect_png(path)?;
     }
     let pictures = Pictures::read(args)?;
     let metrics = metrics(args, &pictures)?;
@@ -39,7 +38,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<bool> {
         let shown = shown(args, &metrics);
         let one = measured.iter().find(|m| m.metric == shown).ok_or_else(|| anyhow!("--show: nothing was measured"))?;
         let drawn = difference::draw(one).with_context(|| path.display().to_string())?;
-        write(path, &drawn.png)?;
+        write_one(path, &drawn.png)?;
         report.picture = Some(PictureReport { file: path.display().to_string(), metric: shown, range: drawn.range });
     }
     if args.json {
@@ -80,20 +79,4 @@ fn shown(args: &CompareArgs, metrics: &[MetricChoice]) -> MetricChoice {
     let first = args.metrics.first().copied();
     let seen = if metrics.contains(&MetricChoice::HdrFlip) { MetricChoice::HdrFlip } else { MetricChoice::Flip };
     args.show.or(first).unwrap_or(seen)
-}
-
-fn check_output(path: &Path) -> Result<()> {
-    match path.extension().and_then(|e| e.to_str()) {
-        Some(extension) if extension.eq_ignore_ascii_case("png") => Ok(()),
-        found => bail!("found the extension {:?}, expected .png", found.unwrap_or_default()),
-    }
-}
-
-fn write(path: &Path, png: &[u8]) -> Result<()> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let name = path.file_name().and_then(|n| n.to_str());
-    let name = name.ok_or_else(|| anyhow!("found no file name, expected one of Unicode characters"))?;
-    let stage = Stage::cleared_on_interrupt()?;
-    stage.write(folder, &[(name, png)])?;
-    stage.publish()
 }

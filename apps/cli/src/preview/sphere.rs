@@ -36,7 +36,7 @@ pub(crate) fn draw(
 }
 
 /// The normal at a place in the disc, that of the rim beyond it.
-fn normal(right: f64, up: f64) -> Vec3 {
+pub(crate) fn normal(right: f64, up: f64) -> Vec3 {
     let length = right.hypot(up).max(1.0);
     let (x, y) = (right / length, up / length);
     [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()]

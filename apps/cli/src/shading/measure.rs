@@ -1,19 +1,20 @@
 //! Shading with baked light against the truth, one approximation at a time.
 
 use super::spheres::{Point, points};
-use super::truth::{Truth, luminance, truth};
+use super::table::Table;
+use super::truth::{Truth, truth};
 use anyhow::Result;
-use lumisphere::bake::shading::{
-    AmbientDiffuse, AmbientFresnel, BakedLight, DominantDirection, ShadingChoices, shade, shade_diffuse,
-};
+use lumisphere::bake::shading::{AmbientDiffuse, BakedLight, ShadingChoices, shade, shade_diffuse};
 use lumisphere::bake::{BakeSettings, BakedEnvironment, ChainSettings, Outputs, RoughnessCurve, bake};
-use lumisphere::bsdf::dfg::ggx_albedo;
-use lumisphere::bsdf::material::Compensation;
-use lumisphere::bsdf::{AlbedoTables, DfgTable, DfgTerms, LobeWeight, Masking, Material, PerceptualRoughness};
+use lumisphere::bsdf::material::Surface;
+use lumisphere::bsdf::{AlbedoTables, Material, PerceptualRoughness, Rgb};
 use lumisphere::image::Environment;
+use lumisphere::scene::photometry::luminance;
 use lumisphere::sphere::{Rotation, vector::dot};
 use lumisphere::trace::{EnvironmentFilter, EnvironmentLight};
 use rayon::prelude::*;
+use std::array::from_fn;
+use std::ops::Range;
 
 /// Perceptual roughness of the spheres: on the levels of the chain and between them.
 pub(super) const ROUGHNESSES: [f64; 11] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
@@ -21,20 +22,8 @@ pub(super) const ROUGHNESSES: [f64; 11] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.
 pub(super) const METALLIC: [f64; 3] = [0.0, 0.5, 1.0];
 /// Grey of the spheres.
 const BASE_COLOR: f64 = 0.8;
-/// Faces of the chain.
-const SIZE: usize = 256;
-/// Texels of the DFG table.
-const DFG_SIZE: usize = 128;
 /// Bands that leave next to nothing of irradiance out, the most that a bake gives.
 const MANY_BANDS: usize = 32;
-
-/// What a renderer does unless the table says better: order 2, mirror direction, the dielectric's albedo, Turquin's factor.
-pub(super) const BASELINE: ShadingChoices = ShadingChoices {
-    diffuse: AmbientDiffuse::Harmonics(3),
-    direction: DominantDirection::Mirror,
-    fresnel: AmbientFresnel::Albedo,
-    compensation: Compensation::Turquin,
-};
 
 /// Which approximation is replaced by the truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,6 +51,29 @@ pub(super) const SOURCES: [(Exact, &str); 6] = [
     (Exact::Texels, "f32"),
 ];
 
+/// One of the spheres.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sphere {
+    /// Index of its perceptual roughness.
+    pub level: usize,
+    pub metallic: f64,
+}
+
+impl Sphere {
+    fn perceptual_roughness(self) -> PerceptualRoughness {
+        PerceptualRoughness::clamped(ROUGHNESSES[self.level])
+    }
+
+    fn material(self) -> Material {
+        Material {
+            base_color: [BASE_COLOR; 3],
+            metallic: self.metallic,
+            perceptual_roughness: self.perceptual_roughness(),
+            ..Material::default()
+        }
+    }
+}
+
 /// Relative error over the points of a sphere.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub(super) struct SphereError {
@@ -71,6 +83,25 @@ pub(super) struct SphereError {
     pub bias: f64,
 }
 
+/// One chain of a bake, and how it is read.
+#[derive(Debug, Clone)]
+pub(super) struct Rendering<'a> {
+    pub baked: &'a BakedEnvironment,
+    pub chain: usize,
+    pub curve: RoughnessCurve,
+}
+
+impl<'a> Rendering<'a> {
+    fn light(&self) -> Result<BakedLight<'a>> {
+        Ok(BakedLight::new(
+            &self.baked.chains[self.chain],
+            self.curve.clone(),
+            &self.baked.sh,
+            self.baked.irradiance.as_ref(),
+        )?)
+    }
+}
+
 /// The light of the truth and everything that is baked of it.
 pub(super) struct Stage {
     points: Vec<Point>,
@@ -78,136 +109,155 @@ pub(super) struct Stage {
     truths: Vec<[Vec<Truth>; 3]>,
     baked: BakedEnvironment,
     halved: BakedEnvironment,
-    table: DfgTable,
+    table: Table,
+    light: EnvironmentLight,
+    tables: AlbedoTables,
 }
 
 impl Stage {
     /// Bakes and traces. `told` hears of each step.
     pub(super) fn set(environment: &Environment, samples: u32, told: impl Fn(&str)) -> Result<Self> {
         told("bake");
-        let baked = bake(environment.clone(), &settings(LobeWeight::NDotL, true), &|_| {})?;
+        let baked = bake(environment.clone(), &with_exact_levels(), &|_| {})?;
         let halved = halved(&baked);
-        let table = DfgTable::compute(DFG_SIZE, Masking::SmithGgxCorrelated)?;
+        let table = Table::compute()?;
         let light = EnvironmentLight::new(lat_long(environment)?, EnvironmentFilter::Patches, Rotation::IDENTITY)?;
         let (tables, points) = (AlbedoTables::compute(), points());
         let mut truths = Vec::new();
-        for p in ROUGHNESSES {
+        for (level, p) in ROUGHNESSES.into_iter().enumerate() {
             told(&format!("trace p = {p}"));
             let of = |material: Material, seed: u32| -> Vec<Truth> {
                 let surface = material.surface(&tables);
                 let one = |(i, &point): (usize, &Point)| truth(&surface, &light, point, samples, seed + i as u32);
                 points.par_iter().enumerate().map(one).collect()
             };
-            let dielectric = material(p, 0.0);
+            let of_metallic = |metallic: f64| Sphere { level, metallic }.material();
+            let dielectric = of_metallic(0.0);
             let black = Material { base_color: [0.0; 3], ..dielectric };
-            truths.push([of(dielectric, 0), of(material(p, 1.0), 10_000), of(black, 20_000)]);
+            truths.push([of(dielectric, 0), of(of_metallic(1.0), 10_000), of(black, 20_000)]);
         }
-        Ok(Self { points, truths, baked, halved, table })
+        Ok(Self { points, truths, baked, halved, table, light, tables })
     }
 
-    /// The error of a sphere as rendered, with one approximation replaced.
+    /// The light as it is baked by default; whole floats where texels are what is exact.
+    fn rendering(&self, exact: Exact) -> Rendering<'_> {
+        let baked = if exact == Exact::Texels { &self.baked } else { &self.halved };
+        Rendering { baked, chain: 0, curve: RoughnessCurve::Linear }
+    }
+
+    /// The error of a sphere, with one approximation replaced, at the points that the viewer sees at an angle in this range of n·v.
     pub(super) fn error(
         &self,
-        level: usize,
-        metallic: f64,
+        sphere: Sphere,
         choices: &ShadingChoices,
         exact: Exact,
+        seen: Range<f64>,
     ) -> Result<SphereError> {
-        let baked = if exact == Exact::Texels { &self.baked } else { &self.halved };
-        self.error_of(baked, level, metallic, choices, exact)
+        self.error_of(&self.rendering(exact), sphere, choices, exact, seen)
     }
 
-    /// The same for light baked with another lobe.
+    /// The same for light baked in another way.
     pub(super) fn error_of(
         &self,
-        baked: &BakedEnvironment,
-        level: usize,
-        metallic: f64,
+        rendering: &Rendering<'_>,
+        sphere: Sphere,
         choices: &ShadingChoices,
         exact: Exact,
+        seen: Range<f64>,
     ) -> Result<SphereError> {
-        let p = PerceptualRoughness::clamped(ROUGHNESSES[level]);
-        let (chain, curve) = match exact {
-            Exact::Level if level > 0 => (&baked.chains[level], RoughnessCurve::Levels(vec![0.0, p.value()])),
-            _ => (&baked.chains[0], RoughnessCurve::Linear),
+        let shaded = self.shaded(rendering, sphere, choices, exact)?;
+        let truths = self.mixed_truth(sphere);
+        let at = |i: &usize| seen.contains(&dot(self.points[*i].normal, self.points[*i].view));
+        let indices: Vec<usize> = (0..self.points.len()).filter(at).collect();
+        let pick = |i: &usize| (shaded[*i], truths[*i]);
+        Ok(compared(&indices.iter().map(pick).collect::<Vec<_>>()))
+    }
+
+    /// What a renderer shows at these points.
+    pub(super) fn rendered(&self, sphere: Sphere, points: &[Point], choices: &ShadingChoices) -> Result<Vec<Rgb>> {
+        let light = self.rendering(Exact::Nothing).light()?;
+        let (p, material) = (sphere.perceptual_roughness(), sphere.material());
+        let found = |point: &Point| {
+            let terms = self.table.terms(dot(point.normal, point.view), p, Exact::Nothing);
+            shade(&material, [point.normal, point.view], &light, terms, choices)
         };
-        let light = BakedLight::new(chain, curve, &baked.sh, None)?;
+        Ok(points.iter().map(found).collect())
+    }
+
+    /// The truth at another point.
+    pub(super) fn traced(&self, surface: &Surface, point: Point, samples: u32, seed: u32) -> Truth {
+        truth(surface, &self.light, point, samples, seed)
+    }
+
+    pub(super) fn surface(&self, sphere: Sphere) -> Surface {
+        sphere.material().surface(&self.tables)
+    }
+
+    /// Luminance at every point.
+    fn shaded(
+        &self,
+        rendering: &Rendering<'_>,
+        sphere: Sphere,
+        choices: &ShadingChoices,
+        exact: Exact,
+    ) -> Result<Vec<f64>> {
+        let (p, material) = (sphere.perceptual_roughness(), sphere.material());
+        let light = match exact {
+            Exact::Level if sphere.level > 0 => {
+                let curve = RoughnessCurve::Levels(vec![0.0, p.value()]);
+                Rendering { chain: sphere.level, curve, ..*rendering }.light()?
+            }
+            _ => rendering.light()?,
+        };
         let mut choices = *choices;
         if exact == Exact::Irradiance {
             choices.diffuse = AmbientDiffuse::Harmonics(MANY_BANDS);
         }
-        let material = material(p.value(), metallic);
         let found = |(i, point): (usize, &Point)| {
             let at = [point.normal, point.view];
-            let n_dot_v = dot(point.normal, point.view);
-            let terms = match exact {
-                Exact::Albedo => ggx_albedo(n_dot_v, p.to_alpha(), Masking::SmithGgxCorrelated),
-                _ => self.terms(n_dot_v, p, exact),
-            };
-            match exact {
-                Exact::Lobe => {
-                    let diffuse = luminance(shade_diffuse(&material, at, &light, terms, &choices));
-                    diffuse + self.specular_truth(level, i, metallic)
-                }
-                _ => luminance(shade(&material, at, &light, terms, &choices)),
+            let terms = self.table.terms(dot(point.normal, point.view), p, exact);
+            if exact == Exact::Lobe {
+                let diffuse = luminance(shade_diffuse(&material, at, &light, terms, &choices));
+                diffuse + self.specular_truth(sphere, i)
+            } else {
+                luminance(shade(&material, at, &light, terms, &choices))
             }
         };
-        let luminances: Vec<f64> = self.points.iter().enumerate().map(found).collect();
-        Ok(compared(&luminances, &self.mixed_truth(level, metallic)))
+        Ok(self.points.iter().enumerate().map(found).collect())
     }
 
-    fn specular_truth(&self, level: usize, point: usize, metallic: f64) -> f64 {
+    fn specular_truth(&self, Sphere { level, metallic }: Sphere, point: usize) -> f64 {
         let [_, metal, specular] = &self.truths[level];
         metallic * metal[point].luminance + (1.0 - metallic) * specular[point].luminance
     }
 
-    fn mixed_truth(&self, level: usize, metallic: f64) -> Vec<Truth> {
+    fn mixed_truth(&self, Sphere { level, metallic }: Sphere) -> Vec<Truth> {
         let [dielectric, metal, _] = &self.truths[level];
         let (m, d) = (metallic, 1.0 - metallic);
         let mix = |(a, b): (&Truth, &Truth)| Truth {
+            radiance: from_fn(|c| d * a.radiance[c] + m * b.radiance[c]),
             luminance: d * a.luminance + m * b.luminance,
             variance: d * d * a.variance + m * m * b.variance,
         };
         dielectric.iter().zip(metal).map(mix).collect()
     }
-
-    /// The table as a sampler with linear filtering reads it.
-    fn terms(&self, n_dot_v: f64, p: PerceptualRoughness, exact: Exact) -> DfgTerms {
-        let place = |x: f64| {
-            let at = (x * DFG_SIZE as f64 - 0.5).clamp(0.0, (DFG_SIZE - 1) as f64);
-            ((at as usize).min(DFG_SIZE - 2), at - (at as usize).min(DFG_SIZE - 2) as f64)
-        };
-        let ((x, s), (y, t)) = (place(n_dot_v), place(p.value()));
-        let texel = |x: usize, y: usize, c: usize| {
-            let value = self.table.texels()[y * DFG_SIZE + x][c];
-            f64::from(if exact == Exact::Texels { value } else { half(value) })
-        };
-        let at = |c: usize| {
-            let row = |y: usize| texel(x, y, c) * (1.0 - s) + texel(x + 1, y, c) * s;
-            row(y) * (1.0 - t) + row(y + 1) * t
-        };
-        DfgTerms { scale: at(0), bias: at(1) }
-    }
 }
 
-fn material(p: f64, metallic: f64) -> Material {
-    let perceptual_roughness = PerceptualRoughness::clamped(p);
-    Material { base_color: [BASE_COLOR; 3], metallic, perceptual_roughness, ..Material::default() }
-}
-
-/// A chain of nine levels, and with `levels` one of two for each roughness, all from one transform.
-pub(super) fn settings(weight: LobeWeight, levels: bool) -> BakeSettings {
-    let linear = ChainSettings { size: SIZE, smallest_face: 1, ..ChainSettings::default() };
+/// The default chain, and with it one of two levels for each roughness, all from one transform.
+fn with_exact_levels() -> BakeSettings {
     let exact = |&p: &f64| ChainSettings {
-        size: SIZE,
         level_count: Some(2),
         curve: RoughnessCurve::Levels(vec![0.0, p]),
         ..ChainSettings::default()
     };
-    let others = ROUGHNESSES[1..].iter().filter(|_| levels).map(exact);
-    let chains = std::iter::once(linear).chain(others).collect();
-    let outputs = Outputs { irradiance: false, skybox: false, dfg: false };
-    BakeSettings { chains, weight, sh_bands: MANY_BANDS, outputs, ..BakeSettings::standard() }
+    let chains = std::iter::once(ChainSettings::default()).chain(ROUGHNESSES[1..].iter().map(exact)).collect();
+    settings(chains)
+}
+
+/// A bake of these chains with all the bands there are, and no more than that.
+pub(super) fn settings(chains: Vec<ChainSettings>) -> BakeSettings {
+    let outputs = Outputs { irradiance: true, skybox: false, dfg: false };
+    BakeSettings { chains, sh_bands: MANY_BANDS, outputs, ..BakeSettings::standard() }
 }
 
 /// Texels as half floats hold them.
@@ -221,20 +271,19 @@ pub(super) fn halved(baked: &BakedEnvironment) -> BakedEnvironment {
     halved
 }
 
-fn half(value: f32) -> f32 {
+pub(super) fn half(value: f32) -> f32 {
     half::f16::from_f32(value.min(65504.0)).to_f32()
 }
 
-fn compared(found: &[f64], truths: &[Truth]) -> SphereError {
-    let pairs = || found.iter().zip(truths);
-    let squares: f64 = pairs().map(|(a, b)| (a - b.luminance).powi(2) - b.variance).sum();
-    let sum = |g: fn(&Truth) -> f64| truths.iter().map(g).sum::<f64>().max(f64::MIN_POSITIVE);
-    let bias: f64 = pairs().map(|(a, b)| a - b.luminance).sum();
+fn compared(pairs: &[(f64, Truth)]) -> SphereError {
+    let squares: f64 = pairs.iter().map(|(a, b)| (a - b.luminance).powi(2) - b.variance).sum();
+    let sum = |g: fn(&Truth) -> f64| pairs.iter().map(|(_, t)| g(t)).sum::<f64>().max(f64::MIN_POSITIVE);
+    let bias: f64 = pairs.iter().map(|(a, b)| a - b.luminance).sum();
     let rms = (squares.max(0.0) / sum(|t| t.luminance * t.luminance)).sqrt();
     SphereError { rms, bias: bias / sum(|t| t.luminance) }
 }
 
-fn lat_long(environment: &Environment) -> Result<Environment> {
+pub(super) fn lat_long(environment: &Environment) -> Result<Environment> {
     use lumisphere::image::resample;
     use lumisphere::sphere::{Grid, Projection};
     if environment.projection() == Projection::LatLong {

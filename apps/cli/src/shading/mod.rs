@@ -1,14 +1,17 @@
 //! `lumisphere verify --shading`: how far shading with baked light is from the truth, and why.
 
 mod measure;
+mod picture;
 mod report;
 mod spheres;
+mod table;
 mod truth;
 
 use crate::args::VerifyArgs;
 use crate::choices::FaceSideChoice;
 use crate::convert_command::one_source;
 use crate::environment_input::{Adjustments, load, prepare};
+use crate::files::{expect_png, write_one};
 use crate::output;
 use crate::progress::{Show, bar};
 use crate::timings::Timings;
@@ -18,8 +21,14 @@ use lumisphere_codec::Limits;
 use measure::{ROUGHNESSES, Stage};
 use report::Report;
 
+/// A pixel of the picture gets one sample for so many of a measured point.
+const PICTURE_SHARE: u32 = 4;
+
 /// Measures spheres in the environment and prints the tables.
 pub(crate) fn run(args: &VerifyArgs) -> Result<()> {
+    if let Some(path) = &args.output {
+        expect_png(path)?;
+    }
     let timings = Timings::start();
     let source = one_source(&args.environment)?;
     let adjustments = Adjustments {
@@ -34,13 +43,17 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<()> {
     let prepared = load(&source, &adjustments, limits, &timings)
         .and_then(|loaded| prepare(loaded, &adjustments, &timings))
         .with_context(|| source.place())?;
-    let bar = bar(ROUGHNESSES.len() as u64 + 2, if args.json { Show::Never } else { Show::OnTerminal });
+    let bar = bar(ROUGHNESSES.len() as u64 + 3, if args.json { Show::Never } else { Show::OnTerminal });
     let told = |step: &str| {
         bar.set_message(step.to_owned());
         bar.inc(1);
     };
     let stage = Stage::set(&prepared.environment, args.samples, told)?;
     let report = Report::of(&source.place(), &stage, &prepared.environment, args.samples)?;
+    if let Some(path) = &args.output {
+        bar.set_message("picture");
+        write_one(path, &picture::draw(&stage, &prepared.environment, (args.samples / PICTURE_SHARE).max(8))?)?;
+    }
     bar.finish_and_clear();
     if args.json { output::json(&report) } else { output::text(&report.text()) }
 }

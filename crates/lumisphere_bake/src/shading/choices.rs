@@ -19,6 +19,19 @@ pub struct ShadingChoices {
     pub compensation: Compensation,
 }
 
+/// What measured best against the truth among choices of equal cost (`lumisphere verify --shading`; benches/shading.md): harmonics of
+/// order 2, Frostbite's direction, 1 - E_s, Fdez-Agüera's factor.
+impl Default for ShadingChoices {
+    fn default() -> Self {
+        Self {
+            diffuse: AmbientDiffuse::Harmonics(3),
+            direction: DominantDirection::default(),
+            fresnel: AmbientFresnel::default(),
+            compensation: Compensation::FdezAguera,
+        }
+    }
+}
+
 /// Where diffuse light is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum AmbientDiffuse {
@@ -32,10 +45,10 @@ pub enum AmbientDiffuse {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum DominantDirection {
     /// The mirror direction r: glTF's sample viewer, OCCT, Filament, three.js.
-    #[default]
     Mirror,
     /// From n to r by (1 - α)(√(1 - α) + α): Frostbite (S. Lagarde and C. de Rousiers, SIGGRAPH course 2014, listing 22), and the same
     /// formula in Unreal's `GetOffSpecularPeakReflectionDir`.
+    #[default]
     Frostbite,
     /// From n to r by (√(1 - α) + α) min(a² + a (n·v)², 1), a = 1 - α: `GetSpecularDominantDir` of Unity's HDRP.
     Unity,
