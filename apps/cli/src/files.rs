@@ -10,11 +10,28 @@ use crate::record;
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tempfile::{Builder, NamedTempFile};
 
 /// Exit code after an interrupt: 128 and the number of SIGINT, as shells report it.
-const INTERRUPTED: i32 = 130;
+pub(crate) const INTERRUPTED: u8 = 130;
+
+/// Whether the program has been asked to come to an end; by default nobody asks.
+#[derive(Clone, Default)]
+pub(crate) struct Interrupt(Arc<AtomicBool>);
+
+impl Interrupt {
+    /// It has.
+    pub(crate) fn came(&self) -> bool {
+        self.0.load(Ordering::SeqCst)
+    }
+
+    /// Tells it; true if it was told before.
+    fn raise(&self) -> bool {
+        self.0.swap(true, Ordering::SeqCst)
+    }
+}
 
 /// What has been written and not yet renamed.
 #[derive(Default)]
@@ -49,14 +66,26 @@ impl Stage {
     pub(crate) fn cleared_on_interrupt() -> Result<Self> {
         let stage = Self::default();
         let shared = stage.clone();
-        ctrlc::set_handler(move || {
-            // Holding the lock keeps the main thread from making or renaming files until the end.
-            let mut staged = shared.lock();
-            staged.discard();
-            std::process::exit(INTERRUPTED);
-        })
-        .context("cannot watch for interrupts")?;
+        ctrlc::set_handler(move || shared.end()).context("cannot watch for interrupts")?;
         Ok(stage)
+    }
+
+    /// The same, but the first interrupt is only told, for work that can be kept; it is for the caller to end then. `asked` is called
+    /// from another thread.
+    pub(crate) fn cleared_on_second_interrupt(asked: impl Fn() + Send + 'static) -> Result<(Self, Interrupt)> {
+        let (stage, interrupt) = (Self::default(), Interrupt::default());
+        let (shared, told) = (stage.clone(), interrupt.clone());
+        ctrlc::set_handler(move || if told.raise() { shared.end() } else { asked() })
+            .context("cannot watch for interrupts")?;
+        Ok((stage, interrupt))
+    }
+
+    /// Clears the stage and ends the program.
+    fn end(&self) {
+        // Holding the lock keeps the main thread from making or renaming files until the end.
+        let mut staged = self.lock();
+        staged.discard();
+        std::process::exit(INTERRUPTED.into());
     }
 
     /// Writes files under temporary names in `folder`, which is made if it is not there.

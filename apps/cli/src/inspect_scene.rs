@@ -68,6 +68,9 @@ impl SceneReport {
         section(text, "lights", &s.lights)?;
         section(text, "cameras", &s.cameras)?;
         section(text, "environment", s.environment.as_slice())?;
+        if s.environment.is_some() {
+            writeln!(text, "  {:<12} `lumisphere render` lights the scene by it unless --env names another", "")?;
+        }
         for note in &s.notes {
             let times = if note.count > 1 { format!(" ({} times)", note.count) } else { String::new() };
             writeln!(text, "  note         {}{times}", note.text)?;

@@ -101,7 +101,7 @@ fn run(command: Command) -> Result<ExitCode> {
         }
         Command::Render(args) => {
             set_threads(args.common.threads)?;
-            render::run(&args)?;
+            return render::run(&args);
         }
         Command::Brdf(args) => brdf::run(&args)?,
         Command::Completions { shell } => {

@@ -44,6 +44,11 @@ pub(crate) fn error(error: &anyhow::Error) {
     let _ = writeln!(anstream::stderr(), "{BAD}error:{BAD:#} {}", line.join(" "));
 }
 
+/// A line for people, beside the results.
+pub(crate) fn remark(text: &str) {
+    let _ = writeln!(anstream::stderr(), "{text}");
+}
+
 /// "4.2 MiB".
 pub(crate) fn size_text(bytes: usize) -> String {
     match bytes {

@@ -4,7 +4,7 @@
 mod common;
 use common::{data, fail, names, succeed};
 use lumisphere::image::Picture;
-use lumisphere_codec::{Limits, decode_picture};
+use lumisphere_codec::{Limits, decode_picture, exr};
 use serde_json::Value;
 use std::path::Path;
 use tempfile::tempdir;
@@ -20,6 +20,10 @@ f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6
 
 fn picture(path: &Path) -> Picture {
     decode_picture(&std::fs::read(path).unwrap(), &Limits::default()).unwrap()
+}
+
+fn layer(path: &Path, name: &str) -> Picture {
+    exr::decode_layer(&std::fs::read(path).unwrap(), name, &Limits::default()).unwrap().unwrap()
 }
 
 /// `render` with few samples.
@@ -59,6 +63,60 @@ fn a_picture_is_made_in_each_format_with_layers_beside() {
     // RGBE keeps 8 bits of the largest channel.
     let near = |(a, b): (&[f32; 3], &[f32; 3])| (a[1] - b[1]).abs() <= a.iter().fold(0.0_f32, |m, c| m.max(*c)) / 128.0;
     assert!(exr.texels.iter().zip(&hdr.texels).all(near));
+}
+
+#[test]
+fn an_exr_holds_its_layers_itself_and_its_variance_is_found_there() {
+    let folder = tempdir().unwrap();
+    let all = ["--aov", "normal,albedo,depth,variance"];
+    render(folder.path(), "builtin:sphere", &[&all[..], &["-o", "a.exr"]].concat());
+    render(folder.path(), "builtin:sphere", &[&all[..], &["-o", "b.hdr"]].concat());
+    let beside = ["b.albedo.exr", "b.depth.exr", "b.hdr", "b.normal.exr", "b.variance.exr"];
+    assert_eq!(names(folder.path()), [&["a.exr"][..], &beside].concat());
+    let path = |name: &str| folder.path().join(name);
+    for name in ["normal", "albedo", "depth", "variance"] {
+        assert_eq!(layer(&path("a.exr"), name).texels, picture(&path(&format!("b.{name}.exr"))).texels, "{name}");
+    }
+    // The picture itself is what it is without layers.
+    render(folder.path(), "builtin:sphere", &["-o", "c.exr"]);
+    assert_eq!(picture(&path("a.exr")).texels, picture(&path("c.exr")).texels);
+    // Another seed differs by its noise alone, whether the variance is a layer or a file.
+    render(folder.path(), "builtin:sphere", &[&all[..], &["-o", "d.exr", "--seed", "1"]].concat());
+    let tested = |variance: [&str; 2]| {
+        let fixed = ["compare", "a.exr", "d.exr", "--metric", "z-test", "--json", "--variance", variance[0]];
+        succeed(folder.path(), &[&fixed[..], &["--variance-b", variance[1]]].concat())
+    };
+    assert_eq!(tested(["a.exr", "d.exr"]), tested(["b.variance.exr", "d.exr"]));
+}
+
+/// An interrupt ends a run with a checkpoint after the pass; the next run goes on.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_keeps_what_is_there() {
+    use std::io::{BufRead, BufReader, Read};
+    use std::process::{Command, Stdio};
+    let folder = tempdir().unwrap();
+    let fixed = ["render", "builtin:sphere", "--reference", "--size", "16x16", "-o", "a.png", "--checkpoint", "state"];
+    let mut child = common::command(folder.path(), &[&fixed[..], &["--samples", "100000000"]].concat())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut said = BufReader::new(child.stdout.take().unwrap());
+    let mut line = String::new();
+    // From the first line on interrupts are caught.
+    said.read_line(&mut line).unwrap();
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    said.read_to_string(&mut line).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert!(common::stderr(&output).contains("the same command goes on from the checkpoint"));
+    assert!(line.contains("wrote     a.png"), "{line}");
+    assert_eq!(names(folder.path()), ["a.png", "state"]);
+    let done: u32 = line.split(" samples").next().unwrap().rsplit(' ').next().unwrap().parse().unwrap();
+    let more = (done + 3).to_string();
+    let said = succeed(folder.path(), &[&fixed[..], &["--samples", &more]].concat());
+    assert!(said.contains(&format!("{more} samples ({done} from the checkpoint)")), "{said}");
 }
 
 #[test]
@@ -145,7 +203,7 @@ fn white_vanishes_in_a_furnace_and_grey_does_not() {
         let fixed = ["render", scene, "--reference", "--env", "builtin:furnace", "--size", "24x24", "--samples", "64"];
         let fov = ["--camera", "eye=0.5,0.3,4:target=0,0,0:fov=40", "-o", "a.exr", "--aov", "depth"];
         succeed(folder.path(), &[&fixed[..], &fov, more].concat());
-        let hits = picture(&folder.path().join("a.depth.exr")).texels;
+        let hits = layer(&folder.path().join("a.exr"), "depth").texels;
         let texels = picture(&folder.path().join("a.exr")).texels;
         let on: Vec<f64> =
             texels.iter().zip(&hits).filter(|(_, depth)| depth[0] > 0.0).map(|(c, _)| f64::from(c[1])).collect();
@@ -181,7 +239,7 @@ fn a_turntable_is_a_sequence_that_turns() {
 fn mistakes_are_one_line_and_leave_nothing() {
     let folder = tempdir().unwrap();
     std::fs::write(folder.path().join("bad.gltf"), b"{").unwrap();
-    let cases: [(&[&str], &str); 11] = [
+    let cases: [(&[&str], &str); 16] = [
         (&["builtin:spere"], "did you mean `sphere`?"),
         (&["spheres"], "did you mean `builtin:spheres`?"),
         (&["a.hdr"], "expected a name that ends in .gltf, .glb or .obj"),
@@ -193,6 +251,11 @@ fn mistakes_are_one_line_and_leave_nothing() {
         (&["builtin:sphere", "--env", "builtin:studoi"], "did you mean `studio`?"),
         (&["builtin:sphere", "--light-paths", "direct", "--bounces", "2"], "--bounces"),
         (&["builtin:sphere", "--no-shadows"], "--no-shadows"),
+        (&["builtin:sphere", "--light-paths", "environment", "--env", "none"], "found no environment"),
+        (&["builtin:cornell", "--light-paths", "environment"], "found no environment"),
+        (&["builtin:sphere", "--camera", "eye=1,2,3:target=1,2,3"], "the same point for eye and target"),
+        (&["builtin:sphere", "--camera", "eye=0,0,0"], "the same point for eye and target"),
+        (&["builtin:sphere", "-o", "/dev/null/a.png"], "/dev/null: cannot make files there"),
     ];
     for (arguments, expected) in cases {
         let error = fail(folder.path(), &[&["render", "--reference"], arguments].concat());

@@ -1,8 +1,8 @@
 //! Cameras and their rays.
 
-use crate::{Affine, Bounds};
+use crate::Affine;
 use lumisphere_sphere::Vec3;
-use lumisphere_sphere::vector::{add, dot, scale, sub, try_normalize};
+use lumisphere_sphere::vector::try_normalize;
 
 /// How a camera maps the world to its picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,15 +41,6 @@ pub struct Ray {
     pub direction: Vec3,
 }
 
-/// Vertical angle of a camera that frames a scene: 35 mm on full frame is 38°, 50 mm is 27°.
-const FRAMING_ANGLE: f64 = 35.0;
-/// From straight ahead (the camera on the scene's +Z side, where glTF has the front) to the right, in degrees.
-const FRAMING_YAW: f64 = 30.0;
-/// Above the horizon, in degrees.
-const FRAMING_PITCH: f64 = 20.0;
-/// Room around what is framed.
-const FRAMING_MARGIN: f64 = 1.05;
-
 impl Camera {
     /// A perspective camera at `eye` that looks at `target`, +Y up; `vertical_angle` in radians.
     pub fn looking_at(eye: Vec3, target: Vec3, vertical_angle: f64) -> Self {
@@ -61,24 +52,20 @@ impl Camera {
         }
     }
 
-    /// A camera for a scene that has none: a three-quarter view from the front, slightly above, as near as it can be with all of
-    /// the box in a picture of width over height `aspect`.
-    pub fn framing(bounds: &Bounds, aspect: f64) -> Self {
-        let (yaw, pitch) = (FRAMING_YAW.to_radians(), FRAMING_PITCH.to_radians());
-        let back = [yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos()];
-        let center = bounds.center();
-        let view = Affine::looking_at(add(center, back), center, [0.0, 1.0, 0.0]);
-        let up = (0.5 * FRAMING_ANGLE.to_radians()).tan();
-        let tangents = [up * if aspect > 0.0 && aspect.is_finite() { aspect } else { 1.0 }, up];
-        // A corner at (x, y, z) of the camera's axes from the centre is inside if |x| <= (distance - z) tan.
-        let needed = |corner: Vec3| {
-            let from_center = sub(corner, center);
-            let [x, y, z] = view.columns.map(|axis| dot(axis, from_center));
-            z + (x.abs() / tangents[0]).max(y.abs() / tangents[1])
+    /// For a picture of width over height `aspect`: where that is narrower than the camera was made for, the angle grows until all
+    /// that it was made to show is in the picture; a wider picture shows more at its sides.
+    pub fn fitted(&self, aspect: f64) -> Self {
+        let grown = self.aspect.map_or(1.0, |made_for| made_for / aspect);
+        let factor = if grown.is_finite() { grown.max(1.0) } else { 1.0 };
+        let lens = match self.lens {
+            // An angle of π stays π.
+            Lens::Perspective { vertical_angle } if factor > 1.0 => {
+                Lens::Perspective { vertical_angle: 2.0 * (factor * (0.5 * vertical_angle).tan()).atan() }
+            }
+            Lens::Orthographic { height } => Lens::Orthographic { height: height * factor },
+            lens => lens,
         };
-        let farthest = bounds.corners().into_iter().map(needed).fold(0.0, f64::max);
-        let distance = if farthest.is_finite() && farthest > 0.0 { FRAMING_MARGIN * farthest } else { 1.0 };
-        Self::looking_at(add(center, scale(back, distance)), center, FRAMING_ANGLE.to_radians())
+        Self { lens, ..self.clone() }
     }
 
     /// The ray through (u, v) of the picture, (0, 0) its top left and (1, 1) its bottom right corner, of width over height
@@ -102,7 +89,7 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lumisphere_sphere::vector::length;
+    use lumisphere_sphere::vector::{length, sub};
 
     /// Rounding.
     const ROUNDING: f64 = 1e-12;
@@ -121,29 +108,20 @@ mod tests {
     }
 
     #[test]
-    fn framing_holds_all_corners_and_little_else() {
-        let bounds = Bounds { min: [-1.0, 0.0, 2.0], max: [3.0, 1.0, 2.5] };
-        for aspect in [0.3, 1.0, 2.5] {
-            let camera = Camera::framing(&bounds, aspect);
-            let map = camera.world_from_camera;
-            let up = (0.5 * FRAMING_ANGLE.to_radians()).tan();
-            let reach = |corner: Vec3| {
-                let [x, y, z] = map.columns.map(|axis| dot(axis, sub(corner, map.translation)));
-                assert!(z < 0.0, "in front of the camera");
-                (x / -z / (up * aspect)).abs().max((y / -z / up).abs())
-            };
-            let widest = bounds.corners().into_iter().map(reach).fold(0.0, f64::max);
-            assert!(widest <= 1.0 && widest > 0.8, "aspect {aspect}: {widest}");
-            assert!(map.translation[1] > 1.0 && map.translation[2] > 2.5, "above and in front");
-        }
-    }
-
-    #[test]
-    fn framing_nothing_or_a_point_is_finite() {
-        for bounds in [Bounds::EMPTY, Bounds { min: [1.0; 3], max: [1.0; 3] }] {
-            let camera = Camera::framing(&bounds, f64::NAN);
-            assert!(camera.world_from_camera.is_finite());
-            assert!(camera.ray([0.2, 0.9], 1.0).direction.iter().all(|x| x.is_finite()));
+    fn narrow_pictures_show_all_that_the_camera_was_made_for() {
+        let camera = Camera { aspect: Some(2.0), ..Camera::looking_at([0.0, 0.0, 5.0], [0.0; 3], 0.7) };
+        let flat = Camera { lens: Lens::Orthographic { height: 4.0 }, ..camera.clone() };
+        for camera in [camera, flat] {
+            for v in [0.5, 0.3] {
+                let (made, fitted) =
+                    (camera.ray([1.0, v], 2.0), camera.fitted(0.5).ray([1.0, 0.5 + (v - 0.5) / 4.0], 0.5));
+                assert!(length(sub(made.direction, fitted.direction)) < ROUNDING, "{made:?} {fitted:?}");
+                assert!(length(sub(made.origin, fitted.origin)) < ROUNDING, "{made:?} {fitted:?}");
+            }
+            assert_eq!(camera.fitted(2.5), camera);
+            assert_eq!(camera.fitted(f64::NAN), camera);
+            let any = Camera { aspect: None, ..camera };
+            assert_eq!(any.fitted(0.1), any);
         }
     }
 }

@@ -86,6 +86,9 @@ pub struct SceneMaterial {
     pub alpha_mode: AlphaMode,
     /// Whether the back is seen, with the normal turned around.
     pub double_sided: bool,
+    /// Whether its file asks for its base colour as it is (KHR_materials_unlit). The numbers say the same to a renderer that knows
+    /// nothing of it: black, and the base colour emitted.
+    pub unlit: bool,
     /// What is inside, if the surface bounds a body.
     pub volume: Option<Volume>,
 }
@@ -124,6 +127,7 @@ impl SceneMaterial {
             occlusion_strength: 1.0,
             alpha_mode: AlphaMode::Opaque,
             double_sided: false,
+            unlit: false,
             volume: None,
         }
     }
@@ -183,6 +187,21 @@ impl SceneMaterial {
             AlphaMode::Mask { cutoff } => f64::from(u8::from(alpha() >= cutoff)),
             AlphaMode::Blend => alpha(),
         }
+    }
+
+    /// Seen as its base colour, whatever the light.
+    pub(crate) fn unlit(self) -> Self {
+        let factors = Material {
+            base_color: [0.0; 3],
+            specular: 0.0,
+            metallic: 0.0,
+            emissive: self.factors.base_color,
+            ..Material::default()
+        };
+        let color = self.textures.base_color;
+        // The base colour's alpha still counts.
+        let textures = MaterialTextures { base_color: color, emissive: color, ..MaterialTextures::default() };
+        Self { factors, textures, unlit: true, volume: None, ..self }
     }
 
     /// Whether a ray may pass where there are triangles.

@@ -1,7 +1,8 @@
 //! Everything a renderer needs to know.
 
-use crate::{Affine, Bounds, Camera, Light, Mesh, Note, SceneMaterial, Texture};
+use crate::{Affine, Bounds, Camera, Light, Mesh, Movement, Note, SceneMaterial, Texture};
 use lumisphere_bsdf::Rgb;
+use lumisphere_image::Environment;
 use lumisphere_sphere::{Rotation, Vec3};
 use std::collections::HashMap;
 
@@ -44,20 +45,21 @@ pub struct Instance {
     pub world_from_local: Affine,
 }
 
-/// What EXT_lights_image_based says of the environment. Its pictures are not read: a note says so.
+/// The environment of EXT_lights_image_based.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImageBasedLight {
     /// As its file calls it, or empty.
     pub name: String,
-    /// Of the environment.
+    /// What arrives from each direction of its own axes, before rotation and intensity: the first level of its pictures, a cube; of a
+    /// light without pictures, the radiance that its coefficients stand for. Finite, at least 0.
+    pub radiance: Environment,
+    /// From its own axes to the world's.
     pub rotation: Rotation,
-    /// Factor of its radiance.
+    /// Factor of its radiance, at least 0.
     pub intensity: f64,
     /// Nine coefficients of its irradiance, as stored.
     pub irradiance_coefficients: [Rgb; 9],
-    /// Side of a face of the first level in texels.
-    pub specular_image_size: usize,
-    /// Levels of the prefiltered cube.
+    /// Levels of the prefiltered cube; 0 if there are no pictures.
     pub level_count: usize,
 }
 
@@ -82,9 +84,9 @@ impl Scene {
         self.instances.iter().filter_map(|i| self.meshes.get(i.mesh)).map(|m| m.triangles.len()).sum()
     }
 
-    /// The first camera of the scene, or one that frames it in a picture of width over height `aspect`.
+    /// The first camera of the scene, or one that frames it, for a picture of width over height `aspect`.
     pub fn camera(&self, aspect: f64) -> Camera {
-        self.cameras.first().cloned().unwrap_or_else(|| Camera::framing(&self.bounds(), aspect))
+        self.cameras.first().map_or_else(|| self.framed(aspect, Movement::None), |camera| camera.fitted(aspect))
     }
 
     /// Adds a mesh with a material at a place, for scenes made in code.
@@ -104,8 +106,9 @@ impl Scene {
         self.materials.len() - 1
     }
 
-    /// Adds a camera.
-    pub(crate) fn add_camera(&mut self, eye: Vec3, target: Vec3, vertical_degrees: f64) {
-        self.cameras.push(Camera::looking_at(eye, target, vertical_degrees.to_radians()));
+    /// Adds a camera for pictures of width over height `aspect`.
+    pub(crate) fn add_camera(&mut self, eye: Vec3, target: Vec3, vertical_degrees: f64, aspect: f64) {
+        let camera = Camera::looking_at(eye, target, vertical_degrees.to_radians());
+        self.cameras.push(Camera { aspect: Some(aspect), ..camera });
     }
 }

@@ -1,8 +1,12 @@
 //! What is in a scene, in words and numbers.
 
 use crate::photometry::luminance;
-use crate::{AlphaMode, Bounds, Camera, Encoding, Lens, Light, LightShape, Note, Scene, SceneMaterial, TextureSlot};
+use crate::{
+    AlphaMode, Bounds, Camera, Encoding, ImageBasedLight, Lens, Light, LightShape, Note, Scene, SceneMaterial,
+    TextureSlot,
+};
 use lumisphere_bsdf::Material;
+use lumisphere_sphere::Rotation;
 
 /// What a scene holds, for people and for reports.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,14 +63,7 @@ impl Summary {
             textures: scene.textures.iter().map(texture).collect(),
             lights: scene.lights.iter().map(light).collect(),
             cameras: scene.cameras.iter().map(camera).collect(),
-            environment: scene.environment.as_ref().map(|e| Described {
-                name: e.name.clone(),
-                properties: vec![
-                    ("intensity", number(e.intensity)),
-                    ("levels", e.level_count.to_string()),
-                    ("side in texels", e.specular_image_size.to_string()),
-                ],
-            }),
+            environment: scene.environment.as_ref().map(environment),
             notes: scene.notes.clone(),
         }
     }
@@ -84,6 +81,9 @@ fn material(material: &SceneMaterial, scene: &Scene) -> Described {
     }
     if material.double_sided {
         properties.push(("sides", "both".to_owned()));
+    }
+    if material.unlit {
+        properties.push(("unlit", "yes".to_owned()));
     }
     if let Some(volume) = &material.volume {
         let distance = number(volume.attenuation_distance);
@@ -181,6 +181,19 @@ fn camera(camera: &Camera) -> Described {
     let mut properties = vec![lens, ("eye", color(camera.world_from_camera.translation))];
     properties.extend(camera.aspect.map(|aspect| ("aspect", number(aspect))));
     Described { name: camera.name.clone(), properties }
+}
+
+fn environment(light: &ImageBasedLight) -> Described {
+    let side = light.radiance.grid().width();
+    let from = match light.level_count {
+        0 => "coefficients of irradiance".to_owned(),
+        levels => format!("a cube of {side} x {side} texels with {levels} levels, of which the first is used"),
+    };
+    let mut properties = vec![("from", from), ("intensity", number(light.intensity))];
+    if light.rotation != Rotation::IDENTITY {
+        properties.push(("turned", "yes".to_owned()));
+    }
+    Described { name: light.name.clone(), properties }
 }
 
 /// Four significant places are enough to read.

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{floats, glb, one_primitive, read, read_within, with_pieces};
-use lumisphere_scene::{AlphaMode, Lens, LightShape, Limits, Scene, SceneError, read_gltf};
+use lumisphere_scene::{AlphaMode, Lens, LightShape, Limits, Scene, SceneError, SceneMaterial, read_gltf};
 use lumisphere_sphere::Vec3;
 
 /// Products of f32 numbers.
@@ -219,7 +219,7 @@ fn materials_lights_and_cameras_are_as_written() {
     assert_eq!((environment.intensity, environment.irradiance_coefficients[0]), (2.0, [1.0, 2.0, 3.0]));
     // A quarter turn about +Y takes +Z to +X.
     assert!(near(environment.rotation.apply([0.0, 0.0, 1.0]), [1.0, 0.0, 0.0]));
-    assert_eq!(scene.notes.len(), 2, "{:?}", scene.notes);
+    assert_eq!(scene.notes.len(), 1, "the range of a light: {:?}", scene.notes);
 }
 
 #[test]
@@ -343,7 +343,7 @@ fn material_extensions_fill_the_factors() {
       "KHR_materials_clearcoat":{"clearcoatFactor":0.7,"clearcoatRoughnessFactor":0.1,"clearcoatNormalTexture":{"index":0,"scale":2}},
       "KHR_materials_sheen":{"sheenColorFactor":[0.3,0.2,0.1],"sheenRoughnessFactor":0.6},
       "KHR_materials_anisotropy":{"anisotropyStrength":0.4,"anisotropyRotation":1.5},
-      "KHR_materials_transmission":{"transmissionFactor":0.9},"KHR_materials_unlit":{},
+      "KHR_materials_transmission":{"transmissionFactor":0.9},
       "KHR_materials_volume":{"thicknessFactor":0.02,"attenuationDistance":0.5,"attenuationColor":[0.9,0.5,0.1]}}}"#;
     let png = png();
     let scene = read(&textured(material, r#"{"bufferView":3}"#, &[&png])).unwrap();
@@ -359,9 +359,28 @@ fn material_extensions_fill_the_factors() {
     assert!(m.double_sided && m.emits() && !m.has_holes() && m.textures.clearcoat_normal.is_some());
     // One picture, decoded for colours and for numbers.
     assert_eq!(scene.textures.len(), 2);
-    assert!(scene.notes.iter().any(|n| n.text.contains("unlit")));
     let thin = r#"{"extensions":{"KHR_materials_volume":{},"KHR_materials_transmission":{"transmissionFactor":1}}}"#;
     assert_eq!(read(&textured(thin, r#"{"bufferView":3}"#, &[&png])).unwrap().materials[0].volume, None);
     let wrong = r#"{"extensions":{"KHR_materials_ior":{"ior":"glass"}}}"#;
     assert!(read(&textured(wrong, r#"{"bufferView":3}"#, &[&png])).is_err());
+}
+
+#[test]
+fn unlit_materials_emit_their_base_color() {
+    let material = r#"{"alphaMode":"MASK","emissiveFactor":[1,1,1],"normalTexture":{"index":0},
+        "pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1],"baseColorTexture":{"index":0}},
+        "extensions":{"KHR_materials_unlit":{},"KHR_materials_clearcoat":{"clearcoatFactor":1}}}"#;
+    let scene = read(&textured(material, r#"{"bufferView":3}"#, &[&png()])).unwrap();
+    let m = &scene.materials[0];
+    assert!(m.unlit && m.emits() && m.has_holes() && m.textures.normal.is_none());
+    assert!(scene.meshes[0].tangents.is_empty());
+    // The left half of the picture is red, the right half green with an alpha of 128.
+    for (u, expected, base_alpha, alpha) in [(0.2, [0.5, 0.0, 0.0], 1.0, 1.0), (0.8, [0.0, 0.25, 0.0], 0.9, 0.0)] {
+        let m = SceneMaterial { base_alpha, ..m.clone() };
+        let found = m.at(&scene.textures, &[[u, 0.5]; 2], [1.0; 4]);
+        assert_eq!((found.material.emissive, found.alpha), (expected, alpha));
+        let f = found.material;
+        assert_eq!((f.base_color, f.specular, f.metallic, f.clearcoat), ([0.0; 3], 0.0, 0.0, 0.0));
+    }
+    assert!(scene.notes.iter().any(|n| n.text.contains("unlit")), "{:?}", scene.notes);
 }

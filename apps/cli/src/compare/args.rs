@@ -73,10 +73,11 @@ pub(crate) struct DisplayArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Noise")]
 pub(crate) struct NoiseArgs {
-    /// Variance of the pixels of A (of their means, not of single samples), for z-test
+    /// Variance of the pixels of A (of their means, not of single samples), for z-test: the layer `variance` of an .exr, such as A
+    /// itself written by `lumisphere render --aov variance`, or a picture that holds nothing else
     #[arg(long, visible_alias = "variance", value_name = "FILE")]
     pub variance_a: Option<PathBuf>,
-    /// Variance of the pixels of B
+    /// Variance of the pixels of B, in the same way
     #[arg(long, value_name = "FILE")]
     pub variance_b: Option<PathBuf>,
 }

@@ -2,9 +2,10 @@
 
 use super::args::CompareArgs;
 use crate::environment_input::read_file;
+use crate::render::VARIANCE_LAYER;
 use anyhow::{Context, Result};
 use lumisphere::image::Picture;
-use lumisphere_codec::{FileFormat, Limits, decode_picture, detect};
+use lumisphere_codec::{FileFormat, Limits, decode_picture, detect, exr};
 use std::path::Path;
 
 /// Decoded, linear.
@@ -23,9 +24,8 @@ impl Pictures {
         let limits = Limits { max_bytes: args.common.max_memory };
         let (test, test_format) = read(&args.test, limits)?;
         let (reference, reference_format) = read(&args.reference, limits)?;
-        let variance = |path: &Option<std::path::PathBuf>| {
-            path.as_deref().map(|p| read(p, limits).map(|(picture, _)| picture)).transpose()
-        };
+        let variance =
+            |path: &Option<std::path::PathBuf>| path.as_deref().map(|p| read_variance(p, limits)).transpose();
         Ok(Self {
             test,
             reference,
@@ -45,4 +45,15 @@ fn read(path: &Path, limits: Limits) -> Result<(Picture, Option<FileFormat>)> {
     let place = || path.display().to_string();
     let bytes = read_file(path, limits).with_context(place)?;
     Ok((decode_picture(&bytes, &limits).with_context(place)?, detect(&bytes)))
+}
+
+/// The layer of variance of an .exr that has one, else the picture.
+fn read_variance(path: &Path, limits: Limits) -> Result<Picture> {
+    let place = || path.display().to_string();
+    let bytes = read_file(path, limits).with_context(place)?;
+    let layer = match detect(&bytes) {
+        Some(FileFormat::Exr) => exr::decode_layer(&bytes, VARIANCE_LAYER, &limits).with_context(place)?,
+        _ => None,
+    };
+    layer.map_or_else(|| decode_picture(&bytes, &limits).with_context(place), Ok)
 }

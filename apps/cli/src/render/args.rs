@@ -26,7 +26,8 @@ pub(crate) struct RenderArgs {
     /// The picture, .png, .exr or .hdr [default: <name of SCENE>.png]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Also write these as linear .exr beside the picture: FILE without its extension, then .normal.exr and so on
+    /// What else is written of each pixel, linear: layers normal.XYZ, albedo.RGB, depth.Z and variance.RGB of an .exr; beside a .png
+    /// or .hdr, files of their own: FILE without its extension, then .normal.exr and so on
     #[arg(long, value_name = "WHAT", value_enum, value_delimiter = ',')]
     pub aov: Vec<AovChoice>,
     #[command(flatten)]
@@ -44,14 +45,16 @@ pub(crate) struct RenderArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "View")]
 pub(crate) struct ViewArgs {
-    /// Width and height in pixels [default: 720 rows in the shape of the camera, else 1280x720]
+    /// Width and height in pixels; a picture narrower than the scene's camera was made for shows all of its view [default: 1280x720,
+    /// or as many pixels in the shape of the camera]
     #[arg(long, value_name = "WxH")]
     pub size: Option<Size>,
     /// A camera of the scene by name or by index from 0, or eye=X,Y,Z:target=X,Y,Z:fov=DEGREES, the angle from bottom to top; target
-    /// and fov may be left out [default: the scene's first camera, else one that sees all of it]
+    /// and fov may be left out [default: the scene's first camera, else one that sees all of it: into a room from its open side, or from
+    /// inside]
     #[arg(long, value_name = "CAMERA", allow_hyphen_values = true)]
     pub camera: Option<View>,
-    /// This many pictures in a full turn of the camera around the scene: FILE-000 and so on
+    /// This many pictures in a full turn: FILE-000 and so on. The camera goes around the scene; in a room it turns on the spot
     #[arg(long, value_name = "N", conflicts_with = "checkpoint", value_parser = clap::value_parser!(u16).range(1..))]
     pub turntable: Option<u16>,
 }
@@ -59,15 +62,15 @@ pub(crate) struct ViewArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Light")]
 pub(crate) struct LightArgs {
-    /// The environment: a picture (.hdr .exr .png .ktx .ktx2 .dds .env), a built-in environment, or none [default: builtin:studio
-    /// where the scene has no light of its own, else none]
+    /// The environment: a picture (.hdr .exr .png .ktx .ktx2 .dds .env), a built-in environment, or none [default: that of the scene
+    /// (EXT_lights_image_based), else builtin:studio where the scene has no light of its own]
     #[arg(long = "env", value_name = "ENV")]
     pub environment: Option<String>,
     /// Turn the environment about +Y, in degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_finite)]
     pub turn_env: f64,
     /// Multiply the environment's radiance
-    #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_positive)]
+    #[arg(long, value_name = "S", default_value_t = 1.0, allow_negative_numbers = true, value_parser = parse_positive)]
     pub env_intensity: f64,
     /// How the environment is read between the centres of its texels
     #[arg(long, value_enum, default_value_t = EnvFilterChoice::Bilinear)]
@@ -90,12 +93,13 @@ pub(crate) struct EffortArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub samples: Option<u32>,
     /// Stop after the pass in which this much time is over; of a turntable, for each picture
-    #[arg(long, value_name = "SECONDS", value_parser = parse_positive)]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = parse_positive)]
     pub time: Option<f64>,
     /// Stop when the noise is this low: the standard error of a pixel over the mean of the picture, such as 0.01
-    #[arg(long, value_name = "REL", value_parser = parse_positive)]
+    #[arg(long, value_name = "REL", allow_negative_numbers = true, value_parser = parse_positive)]
     pub error: Option<f64>,
-    /// Keep the state in this file, once a minute and at the end; go on from it if it is there
+    /// Keep the state in this file, once a minute, at the end and when interrupted (Ctrl-C: the pass is finished, the picture so far
+    /// is written); go on from it if it is there
     #[arg(long, value_name = "FILE")]
     pub checkpoint: Option<PathBuf>,
     /// Seed of the random numbers
@@ -121,9 +125,9 @@ pub(crate) enum AovChoice {
     Normal,
     /// Base colour of the material; 0 where nothing is
     Albedo,
-    /// Distance from the eye in metres, the same in all channels; 0 where nothing is
+    /// Distance from the eye in metres; 0 where nothing is
     Depth,
-    /// Of the mean radiance: what `lumisphere compare --variance-a` takes
+    /// Of the mean radiance: what `lumisphere compare --variance` takes, as layer or as file
     Variance,
 }
 

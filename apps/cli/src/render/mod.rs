@@ -10,25 +10,27 @@ mod tracing;
 mod view;
 
 pub(crate) use args::RenderArgs;
+pub(crate) use picture_file::VARIANCE_LAYER;
 
-use crate::files::Stage;
+use crate::files::{INTERRUPTED, Interrupt, Stage};
 use crate::output;
 use crate::scene_input::SceneSource;
 use anyhow::{Result, bail};
-use args::LightPathsChoice;
+use args::{EffortArgs, LightPathsChoice};
 use lumisphere::bsdf::AlbedoTables;
-use lumisphere::scene::{Camera, Scene};
+use lumisphere::scene::{Camera, Movement, Scene};
 use lumisphere::trace::{TraceSettings, Visibility, World};
 use lumisphere_codec::Limits;
 use picture_file::{PictureFile, Shown};
 use size::Size;
 use std::path::PathBuf;
+use std::process::ExitCode;
 use surroundings::Surroundings;
 use tracing::{Task, Traced, trace};
-use view::{View, turned};
+use view::{View, turned, turntable};
 
-/// Renders as the arguments say.
-pub(crate) fn run(args: &RenderArgs) -> Result<()> {
+/// Renders as the arguments say; the exit code tells a picture that is there in part, because of an interrupt.
+pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode> {
     if !args.reference {
         bail!("only the path tracer is there: add --reference");
     }
@@ -40,17 +42,36 @@ pub(crate) fn run(args: &RenderArgs) -> Result<()> {
     let (camera, size) = view(args, &scene)?;
     let limits = Limits { max_bytes: args.common.max_memory };
     let surroundings = Surroundings::new(&args.light, &scene, limits)?;
+    if surroundings.light.is_none() && args.light.light_paths == LightPathsChoice::Environment {
+        bail!("--light-paths environment: found no environment, expected one (--env)");
+    }
+    file.expect_room()?;
+    let (stage, interrupt) = stage(&args.effort)?;
     output::text(&format!("  light     {}\n{}", surroundings.text, ignored(args, &scene)))?;
     let tables = AlbedoTables::compute();
     let world = World::new(&scene, surroundings.light, &tables)?;
-    let stage = Stage::cleared_on_interrupt()?;
     let task = Task { world: &world, camera, size: [size.width, size.height], settings, label: String::new() };
     match args.view.turntable {
         None => {
-            let traced = trace(&task, &args.effort, &stage)?;
-            write(args, &file, None, args.display.exposure, &traced, &stage).map(drop)
+            let traced = trace(&task, &args.effort, &stage, &interrupt)?;
+            write(args, &file, None, args.display.exposure, &traced, &stage)?;
         }
-        Some(count) => turntable(args, task, usize::from(count), &file, &stage),
+        Some(count) => turn(args, task, usize::from(count), &file, &stage)?,
+    }
+    if interrupt.came() {
+        output::remark("interrupted: the same command goes on from the checkpoint");
+        return Ok(ExitCode::from(INTERRUPTED));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// With a checkpoint an interrupt ends the run after the pass, and nothing is lost.
+fn stage(effort: &EffortArgs) -> Result<(Stage, Interrupt)> {
+    match effort.checkpoint {
+        Some(_) => Stage::cleared_on_second_interrupt(|| {
+            output::remark("interrupted: finishing the pass; once more ends at once, with the last checkpoint")
+        }),
+        None => Ok((Stage::cleared_on_interrupt()?, Interrupt::default())),
     }
 }
 
@@ -76,7 +97,8 @@ fn view(args: &RenderArgs, scene: &Scene) -> Result<(Camera, Size)> {
     let view = args.view.camera.as_ref();
     let of_scene = View::of_scene(view, scene)?;
     let size = args.view.size.unwrap_or_else(|| Size::of_camera(of_scene));
-    Ok((View::camera(view, scene, size.aspect())?, size))
+    let movement = if args.view.turntable.is_some() { Movement::Turntable } else { Movement::None };
+    Ok((View::camera(view, scene, size.aspect(), movement)?, size))
 }
 
 /// A line where something of the scene is not shown as its file has it.
@@ -88,14 +110,15 @@ fn ignored(args: &RenderArgs, scene: &Scene) -> String {
     }
 }
 
-/// The camera around the scene, counter-clockwise seen from above.
-fn turntable(args: &RenderArgs, task: Task, count: usize, file: &PictureFile, stage: &Stage) -> Result<()> {
-    let center = task.world.scene().bounds().center();
+/// A full turn, counter-clockwise seen from above.
+fn turn(args: &RenderArgs, task: Task, count: usize, file: &PictureFile, stage: &Stage) -> Result<()> {
+    let (camera, center) = turntable(task.camera, task.world.scene());
+    let task = Task { camera, ..task };
     let mut exposure = args.display.exposure;
     for number in 0..count {
         let camera = turned(&task.camera, center, number as f64 / count as f64);
         let label = format!("{}/{count} ", number + 1);
-        let traced = trace(&Task { camera, label, ..task }, &args.effort, stage)?;
+        let traced = trace(&Task { camera, label, ..task }, &args.effort, stage, &Interrupt::default())?;
         // All pictures get the exposure of the first.
         exposure = write(args, file, Some(number), exposure, &traced, stage)?;
     }

@@ -22,7 +22,10 @@ pub(crate) fn outlook(now: &Progress, samples_before: u32, target: &Target, time
     });
     let left = [by_time, by_error].into_iter().flatten().fold(by_samples, f64::min);
     let whole = now.seconds + left;
-    let mut text = format!("{} samples", now.samples);
+    let mut text = match (time, target.error) {
+        (None, None) => format!("{} of {} samples", now.samples, target.samples),
+        _ => format!("{} samples", now.samples),
+    };
     // Writing to a String cannot fail.
     if now.error.is_finite() {
         let _ = write!(text, ", noise {}", percent(now.error));
@@ -57,7 +60,7 @@ mod tests {
         let now = Progress { samples: 32, seconds: 8.0, error: 0.02 };
         let target = Target { samples: 160, seconds: None, error: None };
         let by_samples = outlook(&now, 0, &target, None);
-        assert_eq!((by_samples.share, by_samples.text.as_str()), (0.2, "32 samples, noise 2.0 %, 32 s left"));
+        assert_eq!((by_samples.share, by_samples.text.as_str()), (0.2, "32 of 160 samples, noise 2.0 %, 32 s left"));
         assert_eq!(outlook(&now, 0, &target, Some(10.0)).text, "32 samples, noise 2.0 %, 2 s left");
         // Half the noise is four times the samples.
         let target = Target { error: Some(0.01), ..target };

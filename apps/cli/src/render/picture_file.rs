@@ -4,9 +4,12 @@ use super::args::AovChoice;
 use anyhow::{Context, Result, bail};
 use lumisphere::image::{Display, ToneMap, automatic_exposure};
 use lumisphere::trace::TracedPicture;
-use lumisphere_codec::exr::SampleFormat;
+use lumisphere_codec::exr::{Layer, SampleFormat};
 use lumisphere_codec::{exr, hdr, png};
 use std::path::{Path, PathBuf};
+
+/// The layer of an .exr with the variance of its means.
+pub(crate) const VARIANCE_LAYER: &str = "variance";
 
 /// What a picture is written as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,6 +64,11 @@ impl PictureFile {
         Ok(Self { folder, stem, extension: word.to_owned(), kind })
     }
 
+    /// Finds out whether files can be made there, before hours are spent on what goes into them.
+    pub(crate) fn expect_room(&self) -> Result<()> {
+        expect_room(&self.folder)
+    }
+
     /// The path of the picture; `number` is its place in a sequence.
     pub(crate) fn path(&self, number: Option<usize>) -> PathBuf {
         let name = format!("{}.{}", self.stem(number), self.extension);
@@ -72,7 +80,7 @@ impl PictureFile {
         number.map_or_else(|| self.stem.clone(), |n| format!("{}-{n:03}", self.stem))
     }
 
-    /// The picture and what is known of its pixels beside.
+    /// The picture and what is known of its pixels: layers of an .exr, files beside the others.
     pub(crate) fn encode(
         &self,
         picture: &TracedPicture,
@@ -81,9 +89,16 @@ impl PictureFile {
         aovs: &[AovChoice],
     ) -> Result<Encoded> {
         let (width, height) = (picture.width, picture.height);
+        let first = |(i, aov): &(usize, &AovChoice)| !aovs[..*i].contains(aov);
+        let layers: Vec<(AovChoice, Vec<[f32; 3]>)> =
+            aovs.iter().enumerate().filter(first).map(|(_, aov)| (*aov, texels(picture, *aov))).collect();
         let exposure = (self.kind == Kind::Png).then(|| shown.exposure.unwrap_or_else(|| suiting(picture)));
         let encoded = match self.kind {
-            Kind::Exr => exr::encode(width, height, &picture.radiance, SampleFormat::Float, None)?,
+            Kind::Exr => {
+                let own = Layer { name: "", channels: &["R", "G", "B"], texels: &picture.radiance };
+                let all: Vec<Layer> = std::iter::once(own).chain(layers.iter().map(layer)).collect();
+                exr::encode_layers(width, height, &all, SampleFormat::Float)?
+            }
             Kind::Hdr => hdr::encode(width, height, &picture.radiance)?,
             Kind::Png => {
                 let display = Display::new(exposure.unwrap_or_default(), shown.tone_map);
@@ -94,13 +109,20 @@ impl PictureFile {
         };
         let stem = self.stem(number);
         let mut files = vec![(format!("{stem}.{}", self.extension), encoded.bytes)];
-        for &aov in aovs {
-            let (word, texels) = layer(picture, aov);
-            let file = exr::encode(width, height, &texels, SampleFormat::Float, None)?;
-            files.push((format!("{stem}.{word}.exr"), file.bytes));
+        // The other formats hold no layers.
+        for (aov, texels) in layers.iter().filter(|_| self.kind != Kind::Exr) {
+            let file = exr::encode(width, height, texels, SampleFormat::Float, None)?;
+            files.push((format!("{stem}.{}.exr", word(*aov)), file.bytes));
         }
         Ok(Encoded { files, exposure, clamped: encoded.clamped })
     }
+}
+
+/// Whether files can be made in a folder, or in the nearest one above it that is there.
+pub(crate) fn expect_room(folder: &Path) -> Result<()> {
+    let place = folder.ancestors().find(|a| a.exists()).unwrap_or(Path::new("."));
+    tempfile::tempfile_in(place).with_context(|| format!("{}: cannot make files there", folder.display()))?;
+    Ok(())
 }
 
 /// The exposure that suits the surfaces of a picture: what is seen around them may be much darker, or a lamp.
@@ -109,12 +131,31 @@ fn suiting(picture: &TracedPicture) -> f64 {
     automatic_exposure(pixels.map(|(radiance, depth)| (*radiance, if *depth > 0.0 { 1.0 } else { 0.0 })))
 }
 
-fn layer(picture: &TracedPicture, aov: AovChoice) -> (&'static str, Vec<[f32; 3]>) {
+fn layer((aov, texels): &(AovChoice, Vec<[f32; 3]>)) -> Layer<'_> {
+    let channels: &[&str] = match aov {
+        AovChoice::Normal => &["X", "Y", "Z"],
+        AovChoice::Albedo | AovChoice::Variance => &["R", "G", "B"],
+        AovChoice::Depth => &["Z"],
+    };
+    Layer { name: word(*aov), channels, texels }
+}
+
+/// Of a layer, and of a file.
+fn word(aov: AovChoice) -> &'static str {
     match aov {
-        AovChoice::Normal => ("normal", picture.normal.clone()),
-        AovChoice::Albedo => ("albedo", picture.albedo.clone()),
-        AovChoice::Depth => ("depth", picture.depth.iter().map(|d| [*d; 3]).collect()),
-        AovChoice::Variance => ("variance", picture.variance.clone()),
+        AovChoice::Normal => "normal",
+        AovChoice::Albedo => "albedo",
+        AovChoice::Depth => "depth",
+        AovChoice::Variance => VARIANCE_LAYER,
+    }
+}
+
+fn texels(picture: &TracedPicture, aov: AovChoice) -> Vec<[f32; 3]> {
+    match aov {
+        AovChoice::Normal => picture.normal.clone(),
+        AovChoice::Albedo => picture.albedo.clone(),
+        AovChoice::Depth => picture.depth.iter().map(|d| [*d; 3]).collect(),
+        AovChoice::Variance => picture.variance.clone(),
     }
 }
 

@@ -13,6 +13,10 @@ pub(crate) fn line(path: &Path, traced: &Traced, encoded: &Encoded) -> String {
         0 => String::new(),
         before => format!(" ({before} from the checkpoint)"),
     };
+    let rate = match traced_now {
+        0 => String::new(),
+        count => format!(", {}", rate(count as f64 / traced.seconds.max(1e-9))),
+    };
     let noise = if traced.noise.is_finite() { percent(traced.noise) } else { "unknown".to_owned() };
     let exposure = encoded.exposure.map_or_else(String::new, |stops| format!(", exposure {stops:.2} EV"));
     let clamped = match encoded.clamped {
@@ -20,13 +24,12 @@ pub(crate) fn line(path: &Path, traced: &Traced, encoded: &Encoded) -> String {
         clamped => format!(", {clamped} values beyond the format"),
     };
     format!(
-        "  wrote     {} ({}x{}{exposure}{clamped}): {} samples{before}, noise {noise}, {:.1} s, {}\n",
+        "  wrote     {} ({}x{}{exposure}{clamped}): {} samples{before}, noise {noise}, {:.1} s{rate}\n",
         path.display(),
         picture.width,
         picture.height,
         picture.samples,
         traced.seconds,
-        rate(traced_now as f64 / traced.seconds.max(1e-9)),
     )
 }
 

@@ -3,8 +3,8 @@
 use lumisphere::scene::Camera;
 use std::str::FromStr;
 
-/// Rows where nothing is said.
-const ROWS: usize = 720;
+/// Pixels where nothing is said.
+const PIXELS: f64 = 1280.0 * 720.0;
 /// Width over height where nothing is said.
 const ASPECT: f64 = 16.0 / 9.0;
 /// Cameras for narrower or wider pictures than this are taken for this.
@@ -20,9 +20,9 @@ pub(crate) struct Size {
 impl Size {
     /// For a camera that may say for which shape it was made.
     pub(crate) fn of_camera(camera: Option<&Camera>) -> Self {
-        let aspect = camera.and_then(|c| c.aspect).filter(|a| *a > 0.0).unwrap_or(ASPECT);
-        let width = (ROWS as f64 * aspect.clamp(1.0 / WIDEST, WIDEST)).round() as usize;
-        Self { width, height: ROWS }
+        let aspect = camera.and_then(|c| c.aspect).filter(|a| *a > 0.0).unwrap_or(ASPECT).clamp(1.0 / WIDEST, WIDEST);
+        let height = (PIXELS / aspect).sqrt().round();
+        Self { width: (height * aspect).round() as usize, height: height as usize }
     }
 
     /// Width over height.
@@ -57,7 +57,7 @@ mod tests {
         assert_eq!(Size::of_camera(None), Size { width: 1280, height: 720 });
         let camera = Camera::looking_at([0.0, 0.0, 1.0], [0.0; 3], 1.0);
         let square = Camera { aspect: Some(1.0), ..camera.clone() };
-        assert_eq!(Size::of_camera(Some(&square)), Size { width: 720, height: 720 });
+        assert_eq!(Size::of_camera(Some(&square)), Size { width: 960, height: 960 });
         assert_eq!(Size::of_camera(Some(&Camera { aspect: Some(f64::NAN), ..camera })).width, 1280);
     }
 }

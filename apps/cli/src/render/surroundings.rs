@@ -27,16 +27,20 @@ pub(crate) struct Surroundings {
 }
 
 impl Surroundings {
-    /// As the arguments say, or as the scene needs it.
+    /// As the arguments say, or as the scene has or needs it.
     pub(crate) fn new(args: &LightArgs, scene: &Scene, limits: Limits) -> Result<Self> {
-        let own = own_light(scene);
-        let (name, text) = match (args.environment.as_deref(), own) {
-            (Some(NONE), _) => return Ok(Self { light: None, text: "no environment".to_owned() }),
-            (Some(name), _) => (name.to_owned(), name.to_owned()),
-            (None, Some(own)) => {
+        let (name, text) = match (args.environment.as_deref(), &scene.environment, own_light(scene)) {
+            (Some(NONE), ..) => return Ok(Self { light: None, text: "no environment".to_owned() }),
+            (Some(name), ..) => (name.to_owned(), name.to_owned()),
+            (None, Some(environment), own) => {
+                let light = finished(environment.radiance.clone(), environment.intensity, environment.rotation, args)?;
+                let also = own.map_or_else(String::new, |own| format!(" and {own}"));
+                return Ok(Self { light: Some(light), text: format!("the environment of the scene{also}") });
+            }
+            (None, None, Some(own)) => {
                 return Ok(Self { light: None, text: format!("{own}, no environment (--env adds one)") });
             }
-            (None, None) => {
+            (None, None, None) => {
                 let name = format!("{PREFIX}{DEFAULT}");
                 let text = format!("{name}, as the scene has no light of its own (--env names another)");
                 (name, text)
@@ -48,7 +52,8 @@ impl Surroundings {
     }
 }
 
-/// What lights a scene by itself, in words. What glows by a texture is taken for a lamp that is shown, not for light.
+/// What lights a scene by itself, in words. What glows by a texture is taken for a lamp that is shown, not for light, and what is
+/// unlit for a picture.
 fn own_light(scene: &Scene) -> Option<String> {
     let count = scene.lights.len();
     if count > 0 {
@@ -56,7 +61,8 @@ fn own_light(scene: &Scene) -> Option<String> {
     }
     let glows = |i: usize| {
         scene.materials.get(i).is_some_and(|m| {
-            m.textures.emissive.is_none()
+            !m.unlit
+                && m.textures.emissive.is_none()
                 && m.factors.emissive_strength > 0.0
                 && m.factors.emissive.iter().any(|c| *c > 0.0)
         })
@@ -75,13 +81,26 @@ fn light(source: &Source, args: &LightArgs, limits: Limits) -> Result<Environmen
     };
     let timings = Timings::start();
     let prepared = prepare(load(source, &as_it_is, limits, &timings)?, &as_it_is, &timings)?;
-    let mut panorama = panorama(prepared.environment)?;
-    if args.env_intensity != 1.0 {
-        adjust_exposure(&mut panorama, args.env_intensity.log2())?;
+    finished(prepared.environment, 1.0, Rotation::IDENTITY, args)
+}
+
+/// Multiplied and turned by what belongs to it, then by what the arguments say.
+fn finished(
+    environment: Environment,
+    intensity: f64,
+    rotation: Rotation,
+    args: &LightArgs,
+) -> Result<EnvironmentLight> {
+    let mut panorama = panorama(environment)?;
+    let factor = intensity * args.env_intensity;
+    if factor == 0.0 {
+        panorama = Environment::filled(panorama.grid(), [0.0; 3]);
+    } else if factor != 1.0 {
+        adjust_exposure(&mut panorama, factor.log2())?;
     }
     let turn = match args.turn_env {
-        0.0 => Rotation::IDENTITY,
-        degrees => Rotation::from_yaw_pitch_roll(degrees.to_radians(), 0.0, 0.0),
+        0.0 => rotation,
+        degrees => Rotation::from_yaw_pitch_roll(degrees.to_radians(), 0.0, 0.0).then_after(rotation),
     };
     Ok(EnvironmentLight::new(panorama, args.env_filter.value(), turn)?)
 }

@@ -2,7 +2,8 @@
 
 use super::args::EffortArgs;
 use super::outlook::outlook;
-use crate::files::Stage;
+use super::picture_file::expect_room;
+use crate::files::{Interrupt, Stage};
 use anyhow::{Context, Result, anyhow};
 use indicatif::{ProgressBar, ProgressStyle};
 use lumisphere::scene::Camera;
@@ -48,25 +49,25 @@ pub(crate) fn target(effort: &EffortArgs) -> Target {
     Target { samples, seconds: None, error: effort.error }
 }
 
-/// Traces until the target is met.
-pub(crate) fn trace(task: &Task, effort: &EffortArgs, stage: &Stage) -> Result<Traced> {
+/// Traces until the target is met or an interrupt came.
+pub(crate) fn trace(task: &Task, effort: &EffortArgs, stage: &Stage, interrupt: &Interrupt) -> Result<Traced> {
     let mut render = begin(task, effort)?;
     let samples_before = render.samples();
     let start = Instant::now();
     let mut saved = start;
     let bar = bar(&task.label);
     loop {
-        let mut time_is_up = false;
+        let mut enough = false;
         let ended = render.run(|progress| {
             let now = Progress { seconds: start.elapsed().as_secs_f64(), ..*progress };
             let outlook = outlook(&now, samples_before, &task.settings.target, effort.time);
             bar.set_position((outlook.share * BAR_LENGTH as f64) as u64);
             bar.set_message(outlook.text);
-            time_is_up = effort.time.is_some_and(|limit| now.seconds >= limit);
+            enough = interrupt.came() || effort.time.is_some_and(|limit| now.seconds >= limit);
             let save = effort.checkpoint.is_some() && saved.elapsed() >= CHECKPOINT_INTERVAL;
-            if time_is_up || save { Break(()) } else { Continue(()) }
+            if enough || save { Break(()) } else { Continue(()) }
         });
-        let done = time_is_up || ended != Ended::Stopped || render.samples() >= task.settings.target.samples;
+        let done = enough || ended != Ended::Stopped || render.samples() >= task.settings.target.samples;
         if let Some(path) = &effort.checkpoint {
             save(path, &render, stage).with_context(|| path.display().to_string())?;
             saved = Instant::now();
@@ -87,15 +88,22 @@ fn begin<'w>(task: &Task<'w>, effort: &EffortArgs) -> Result<Render<'w>> {
     match std::fs::read(path) {
         Ok(bytes) => Render::resume(task.world, &task.camera, task.size, task.settings, &bytes)
             .with_context(|| format!("{} (remove it to begin anew)", path.display())),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(new()?),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            expect_room(folder(path))?;
+            Ok(new()?)
+        }
         Err(error) => Err(anyhow!(error).context(path.display().to_string())),
     }
 }
 
+/// The folder of a file.
+fn folder(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
 fn save(path: &Path, render: &Render, stage: &Stage) -> Result<()> {
     let name = path.file_name().and_then(|n| n.to_str()).context("expected the name of a file")?;
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    stage.write(folder, &[(name, render.checkpoint().as_slice())])?;
+    stage.write(folder(path), &[(name, render.checkpoint().as_slice())])?;
     stage.publish()
 }
 

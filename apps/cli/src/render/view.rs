@@ -1,13 +1,17 @@
 //! From where a scene is seen.
 
 use anyhow::{Result, bail};
-use lumisphere::scene::{Affine, Camera, Scene};
+use lumisphere::scene::{Affine, Camera, Lens, Movement, Scene};
 use lumisphere::sphere::{Rotation, Vec3};
 use std::f64::consts::TAU;
 use std::str::FromStr;
 
 /// Vertical angle of `eye=...` without `fov=`, in degrees.
 const ANGLE: f64 = 35.0;
+/// Where in a room a camera turns, as a share of its height: above most of what stands in it.
+const SPOT_HEIGHT: f64 = 0.7;
+/// Its angle from bottom to top, in degrees: walls are near.
+const SPOT_ANGLE: f64 = 70.0;
 
 /// `--camera`.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,14 +77,17 @@ impl View {
         }
     }
 
-    /// The camera for a picture of this shape.
-    pub(crate) fn camera(view: Option<&Self>, scene: &Scene, aspect: f64) -> Result<Camera> {
+    /// The camera for a picture of this shape; `movement` is what it has to be framed for.
+    pub(crate) fn camera(view: Option<&Self>, scene: &Scene, aspect: f64, movement: Movement) -> Result<Camera> {
         if let Some(Self::Free { eye, target, degrees }) = view {
             let target = target.unwrap_or_else(|| scene.bounds().center());
+            if target == *eye {
+                bail!("--camera: found the same point for eye and target, expected two");
+            }
             return Ok(Camera::looking_at(*eye, target, degrees.to_radians()));
         }
         let camera = Self::of_scene(view, scene)?;
-        Ok(camera.cloned().unwrap_or_else(|| Camera::framing(&scene.bounds(), aspect)))
+        Ok(camera.map_or_else(|| scene.framed(aspect, movement), |camera| camera.fitted(aspect)))
     }
 }
 
@@ -91,6 +98,26 @@ fn known(scene: &Scene) -> String {
     };
     let names: Vec<String> = scene.cameras.iter().enumerate().map(name).collect();
     if names.is_empty() { "it has none".to_owned() } else { format!("expected one of {}", names.join(", ")) }
+}
+
+/// How a camera turns: where it begins, and a point of the vertical about which it turns.
+///
+/// Around the middle of what is looked at from outside. In a room it turns on the spot, for the walls would hide all from outside:
+/// where it stands, if that is inside, else above the middle of the room.
+pub(crate) fn turntable(camera: Camera, scene: &Scene) -> (Camera, Vec3) {
+    let bounds = scene.bounds();
+    if scene.interior().is_none() {
+        return (camera, bounds.center());
+    }
+    let eye = camera.world_from_camera.translation;
+    if (0..3).all(|i| bounds.min[i] < eye[i] && eye[i] < bounds.max[i]) {
+        return (camera, eye);
+    }
+    let mut spot = bounds.center();
+    spot[1] += (SPOT_HEIGHT - 0.5) * bounds.size()[1];
+    let world_from_camera = Affine { translation: spot, ..camera.world_from_camera };
+    let lens = Lens::Perspective { vertical_angle: SPOT_ANGLE.to_radians() };
+    (Camera { world_from_camera, lens, ..camera }, spot)
 }
 
 /// The camera after a part `share` of a full turn about the vertical through `center`, to the right first.
@@ -136,5 +163,21 @@ mod tests {
         let expected = ([7.0, 1.0, 3.0], [-1.0, 0.0, 0.0]);
         assert!((0..3).all(|i| (ray.origin[i] - expected.0[i]).abs() < ROUNDING), "{ray:?}");
         assert!((0..3).all(|i| (ray.direction[i] - expected.1[i]).abs() < ROUNDING), "{ray:?}");
+    }
+
+    #[test]
+    fn in_rooms_turntables_turn_on_the_spot() {
+        let eye = |camera: &Camera| camera.world_from_camera.translation;
+        let room = Builtin::Room.build();
+        let (camera, pivot) = turntable(room.cameras[0].clone(), &room);
+        assert_eq!((&camera, pivot), (&room.cameras[0], eye(&camera)));
+        let cornell = Builtin::Cornell.build();
+        let (camera, pivot) = turntable(cornell.cameras[0].clone(), &cornell);
+        let (bounds, half) = (cornell.bounds(), eye(&turned(&camera, pivot, 0.5)));
+        assert!((0..3).all(|i| bounds.min[i] < pivot[i] && pivot[i] < bounds.max[i]), "{pivot:?}");
+        assert!((0..3).all(|i| (half[i] - pivot[i]).abs() < ROUNDING), "{half:?}");
+        let spheres = Builtin::Spheres.build();
+        let (camera, pivot) = turntable(spheres.cameras[0].clone(), &spheres);
+        assert_eq!((&camera, pivot), (&spheres.cameras[0], spheres.bounds().center()));
     }
 }

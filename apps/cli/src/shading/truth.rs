@@ -87,7 +87,7 @@ mod tests {
             let perceptual_roughness = PerceptualRoughness::clamped(p);
             let material = Material { base_color: [0.8; 3], metallic, perceptual_roughness, ..Material::default() };
             let mut scene = Builtin::Plane.build();
-            scene.materials[0].factors = material.clone();
+            scene.materials[0].factors = material;
             let world = World::new(&scene, Some(sky()), &tables).unwrap();
             let camera = Camera::looking_at(scale(view, 3.0), [0.0; 3], 1.0);
             let camera = Camera { lens: Lens::Orthographic { height: 0.1 }, ..camera };

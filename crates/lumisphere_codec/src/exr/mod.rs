@@ -4,6 +4,7 @@
 //! cropped.
 //!
 //! **Channels.** The first part and layer that has R, G and B is taken; else Y with RY and BY, else Y alone as grey.
+//! [`decode_layer`] takes a layer by its name, with channels R, G and B, or X, Y and Z, or one, as grey.
 //! Subsampled chroma is interpolated linearly between its sites, which sit on every second luminance sample
 //! (OpenEXR, "Technical introduction", luminance/chroma images). Alpha is ignored: OpenEXR's colours are premultiplied,
 //! so they already are what the picture adds. NaN and infinities are kept. Tiled files give their largest level.
@@ -27,8 +28,8 @@ mod read;
 mod select;
 mod write;
 
-pub use read::decode;
-pub use write::{SampleFormat, encode};
+pub use read::{decode, decode_layer};
+pub use write::{Layer, SampleFormat, encode, encode_layers};
 
 #[cfg(test)]
 mod tests;

@@ -29,14 +29,35 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Picture, CodecError> {
     let mut rest = bytes;
     let meta = guarded("the header", || MetaData::read_from_buffered(&mut rest, false))?;
     check_headers(&meta.headers)?;
-    let Selection { part, source, notes: selection_notes } = select::select(&meta.headers)?;
+    let selection = select::select(&meta.headers)?;
+    decode_selected(rest, &meta, selection, limits)
+}
+
+/// Decodes one layer of a flat OpenEXR file to the numbers it holds, whatever the file's chromaticities: the channels R, G, B or
+/// X, Y, Z of that name, or a single channel in all three components. `None` if there is no such layer.
+///
+/// # Errors
+/// As [`decode`].
+pub fn decode_layer(bytes: &[u8], layer: &str, limits: &Limits) -> Result<Option<Picture>, CodecError> {
+    let mut rest = bytes;
+    let meta = guarded("the header", || MetaData::read_from_buffered(&mut rest, false))?;
+    check_headers(&meta.headers)?;
+    match select::select_layer(&meta.headers, layer) {
+        Some(selection) => decode_selected(rest, &meta, selection, limits).map(Some),
+        None => Ok(None),
+    }
+}
+
+/// The chosen channels; `rest` is what follows the headers.
+fn decode_selected(rest: &[u8], meta: &MetaData, selection: Selection, limits: &Limits) -> Result<Picture, CodecError> {
+    let Selection { part, source, notes: selection_notes } = selection;
     let header = &meta.headers[part];
     let display = header.shared_attributes.display_window;
     let texel_count = check_sizes(header, display, limits)?;
     let sampling = check_sampling(header, source)?;
 
     // All blocks must be there before the picture is allocated.
-    let strips = read_chunks(rest, &meta, part)?;
+    let strips = read_chunks(rest, meta, part)?;
     let mut texels = vec![[0.0; 3]; texel_count];
     let width = header.layer_size.width();
     let strip_texels = width * block_rows(header);
@@ -113,7 +134,7 @@ fn check_sampling(header: &Header, source: Source) -> Result<Sampling, CodecErro
     }
     let sampled = |index: usize| channels[index].sampling != Vec2(1, 1);
     let (chroma, full) = match source {
-        Source::Rgb([r, g, b]) => (r, sampled(r) || sampled(g) || sampled(b)),
+        Source::Rgb([r, g, b]) | Source::Numbers([r, g, b]) => (r, sampled(r) || sampled(g) || sampled(b)),
         Source::LuminanceChroma([y, ry, by]) => (ry, sampled(y) || channels[ry].sampling != channels[by].sampling),
         Source::Grey(y) => (y, sampled(y)),
     };
@@ -179,6 +200,9 @@ fn place(header: &Header, chunk: Chunk) -> Result<Option<Block>, CodecError> {
 
 /// Undoes luminance/chroma and converts the primaries.
 fn to_rec709(texels: &mut [Rgb], header: &Header, source: Source, sampling: Sampling, notes: &mut Vec<String>) {
+    if let Source::Numbers(_) = source {
+        return;
+    }
     let given = select::chromaticities(header);
     let primaries = given.unwrap_or(color::REC709);
     let matrix = color::rec709_from_rgb(&primaries);

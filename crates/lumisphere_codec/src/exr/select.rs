@@ -13,6 +13,8 @@ pub(super) enum Source {
     LuminanceChroma([usize; 3]),
     /// Y.
     Grey(usize),
+    /// What is no colour.
+    Numbers([usize; 3]),
 }
 
 impl Source {
@@ -20,6 +22,8 @@ impl Source {
     pub(super) fn components(self) -> Vec<(usize, usize)> {
         match self {
             Self::Rgb(c) | Self::LuminanceChroma(c) => c.into_iter().zip(0..).collect(),
+            // One channel may stand for several components.
+            Self::Numbers(c) => c.into_iter().zip(0..).collect(),
             Self::Grey(y) => vec![(y, 0), (y, 1), (y, 2)],
         }
     }
@@ -58,6 +62,25 @@ pub(super) fn select(headers: &[Header]) -> Result<Selection, CodecError> {
         headers.iter().flat_map(|h| &h.channels.list).take(20).map(|c| c.name.to_string()).collect();
     let what = format!("a picture from the channels {}", names.join(", ").escape_debug());
     Err(CodecError::unsupported(Exr, what, "R, G, B or Y"))
+}
+
+/// Picks a layer by its name; `None` if no part has it.
+pub(super) fn select_layer(headers: &[Header], layer: &str) -> Option<Selection> {
+    let found = headers.iter().enumerate().filter(|(_, header)| !header.deep).find_map(|(part, header)| {
+        let names: Vec<String> = header.channels.list.iter().map(|c| c.name.to_string()).collect();
+        let of_layer = |name: &str| name.strip_prefix(layer).and_then(|rest| rest.strip_prefix('.')).map(str::to_owned);
+        let channels: Vec<(usize, String)> =
+            names.iter().enumerate().filter_map(|(i, name)| Some((i, of_layer(name)?))).collect();
+        let index = |name: &str| channels.iter().find(|(_, channel)| channel == name).map(|(i, _)| *i);
+        let all = |[a, b, c]: [&str; 3]| Some([index(a)?, index(b)?, index(c)?]);
+        let single = || (channels.len() == 1).then(|| [channels[0].0; 3]);
+        Some((part, all(["R", "G", "B"]).or_else(|| all(["X", "Y", "Z"])).or_else(single)?))
+    });
+    found.map(|(part, channels)| Selection {
+        part,
+        source: Source::Numbers(channels),
+        notes: vec![format!("layer {layer} taken")],
+    })
 }
 
 /// The first layer (the unnamed one before the others) with all channels of `kind`, and their indices.

@@ -69,3 +69,41 @@ fn chroma_is_linear_between_its_sites() {
         assert!((y - 2.0).abs() < 1e-6, "{texel:?}");
     }
 }
+
+#[test]
+fn layers_are_kept_apart_by_their_names() {
+    let (color, normal) = (ramp(280), ramp(281)[1..].to_vec());
+    let depth: Vec<[f32; 3]> = (0..280).map(|i| [i as f32; 3]).collect();
+    let layers = [
+        Layer { name: "", channels: &["R", "G", "B"], texels: &color },
+        Layer { name: "normal", channels: &["X", "Y", "Z"], texels: &normal },
+        Layer { name: "depth", channels: &["Z"], texels: &depth },
+        Layer { name: "variance", channels: &["R", "G", "B"], texels: &normal },
+    ];
+    for samples in [SampleFormat::Half, SampleFormat::Float] {
+        let file = encode_layers(7, 40, &layers, samples).unwrap().bytes;
+        let picture = decode(&file, &Limits::default()).unwrap();
+        assert_eq!(picture.texels, color);
+        let layer = |name: &str| decode_layer(&file, name, &Limits::default()).unwrap().map(|p| p.texels);
+        assert_eq!(layer("normal").as_ref(), Some(&normal));
+        assert_eq!(layer("variance").as_ref(), Some(&normal));
+        assert_eq!(layer("depth").as_ref(), Some(&depth));
+        for none in ["norm", "normal.X", "Depth", ""] {
+            assert_eq!(layer(none), None, "{none:?}");
+        }
+    }
+    let one = encode_layers(7, 40, &layers[..1], SampleFormat::Float).unwrap();
+    assert_eq!(one, encode(7, 40, &color, SampleFormat::Float, None).unwrap());
+}
+
+#[test]
+fn layers_that_cannot_be_are_refused() {
+    let texels = ramp(4);
+    let layer = |name, channels| Layer { name, channels, texels: &texels };
+    let written = |layers: &[Layer]| encode_layers(2, 2, layers, SampleFormat::Float);
+    assert!(written(&[]).is_err());
+    assert!(written(&[layer("a", &["X", "X"])]).is_err());
+    assert!(written(&[layer("", &["a.X"]), layer("a", &["X"])]).is_err());
+    assert!(encode_layers(2, 3, &[layer("a", &["X"])], SampleFormat::Float).is_err());
+    assert!(written(&[layer("a", &["X"])]).is_ok());
+}

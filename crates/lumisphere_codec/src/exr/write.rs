@@ -27,6 +27,24 @@ pub enum SampleFormat {
     Float,
 }
 
+/// Some channels of a picture under a common name.
+#[derive(Debug, Clone, Copy)]
+pub struct Layer<'a> {
+    /// In front of the names of its channels, with a dot between; empty for the picture itself.
+    pub name: &'a str,
+    /// What the components of a texel are called, at most three: `["R", "G", "B"]`; those beyond are not written.
+    pub channels: &'a [&'a str],
+    /// `width * height` of them, top row first.
+    pub texels: &'a [Rgb],
+}
+
+/// One channel as it is stored.
+struct Channel<'a> {
+    name: String,
+    texels: &'a [Rgb],
+    component: usize,
+}
+
 /// Writes `width * height` linear texels, top row first, as R, G, B with ZIP compression over 16 rows.
 ///
 /// With `Some` projection the file gets the `envmap` attribute and the texels are turned to OpenEXR's orientation, so
@@ -45,8 +63,54 @@ pub fn encode(
 ) -> Result<Encoded, CodecError> {
     check(width, height, texels)?;
     let (texels, environment_map) = oriented(width, height, texels, projection)?;
-    let header = header(width, height, samples, environment_map);
-    let headers: SmallVec<[Header; 3]> = SmallVec::from_vec(vec![header]);
+    let layer = Layer { name: "", channels: &["R", "G", "B"], texels: &texels };
+    let attributes = LayerAttributes { environment_map, ..LayerAttributes::default() };
+    write(width, height, &channels(&[layer])?, samples, attributes)
+}
+
+/// Writes layers of one size into one part, as `lumisphere render` and most of the field do: channels R, G, B and `normal.X`.
+/// [`decode`](super::decode) reads the layer without a name, [`decode_layer`](super::decode_layer) the others.
+///
+/// # Errors
+/// [`CodecError::Unwritable`] if the size is 0 or beyond OpenEXR's, the texels of a layer do not match it, there are no
+/// channels, or two have the same name.
+pub fn encode_layers(
+    width: usize,
+    height: usize,
+    layers: &[Layer<'_>],
+    samples: SampleFormat,
+) -> Result<Encoded, CodecError> {
+    layers.iter().try_for_each(|layer| check(width, height, layer.texels))?;
+    write(width, height, &channels(layers)?, samples, LayerAttributes::default())
+}
+
+/// The channels of layers in the order in which OpenEXR stores them: by name.
+fn channels<'a>(layers: &[Layer<'a>]) -> Result<Vec<Channel<'a>>, CodecError> {
+    let mut channels: Vec<Channel<'a>> = Vec::new();
+    for layer in layers {
+        for (component, channel) in layer.channels.iter().enumerate().take(3) {
+            let name = if layer.name.is_empty() { (*channel).to_owned() } else { format!("{}.{channel}", layer.name) };
+            channels.push(Channel { name, texels: layer.texels, component });
+        }
+    }
+    channels.sort_by(|a, b| a.name.cmp(&b.name));
+    let twice = channels.windows(2).find(|pair| pair[0].name == pair[1].name);
+    match (channels.len(), twice) {
+        (0, _) => Err(CodecError::unwritable(Exr, "the channel count", 0, "at least 1")),
+        (_, Some(pair)) => Err(CodecError::unwritable(Exr, "a channel", &pair[0].name, "each name once")),
+        _ => Ok(channels),
+    }
+}
+
+fn write(
+    width: usize,
+    height: usize,
+    channels: &[Channel<'_>],
+    samples: SampleFormat,
+    attributes: LayerAttributes,
+) -> Result<Encoded, CodecError> {
+    let headers: SmallVec<[Header; 3]> =
+        SmallVec::from_vec(vec![header(width, height, channels, samples).with_attributes(attributes)]);
     let failed =
         |error: exr::error::Error| CodecError::unwritable(Exr, "the image", error, "one that OpenEXR can hold");
 
@@ -54,7 +118,7 @@ pub fn encode(
     let chunks: Vec<_> = blocks
         .par_iter()
         .map(|&(index, place)| {
-            let (data, clamped) = block_data(&headers[0], place, &texels, width, samples);
+            let (data, clamped) = block_data(&headers[0], place, channels, width, samples);
             let block = UncompressedBlock { index: place, data };
             Ok((index, block.compress_to_chunk(&headers).map_err(failed)?, clamped))
         })
@@ -109,24 +173,24 @@ fn oriented(
     Ok((turned, attribute))
 }
 
-fn header(width: usize, height: usize, samples: SampleFormat, environment_map: Option<EnvironmentMap>) -> Header {
+fn header(width: usize, height: usize, channels: &[Channel<'_>], samples: SampleFormat) -> Header {
     let sample_type = match samples {
         SampleFormat::Half => SampleType::F16,
         SampleFormat::Float => SampleType::F32,
     };
-    // Channels are stored by name.
-    let channels = ["B", "G", "R"].map(|name| ChannelDescription::new(name, sample_type, false));
-    let attributes = LayerAttributes { environment_map, ..LayerAttributes::default() };
-    Header::new("".into(), Vec2(width, height), SmallVec::from_vec(channels.to_vec()))
-        .with_encoding(Compression::ZIP16, BlockDescription::ScanLines, LineOrder::Increasing)
-        .with_attributes(attributes)
+    let described = |channel: &Channel<'_>| ChannelDescription::new(channel.name.as_str(), sample_type, false);
+    Header::new("".into(), Vec2(width, height), channels.iter().map(described).collect()).with_encoding(
+        Compression::ZIP16,
+        BlockDescription::ScanLines,
+        LineOrder::Increasing,
+    )
 }
 
 /// The samples of a block in native byte order and the number of clamped ones.
 fn block_data(
     header: &Header,
     place: BlockIndex,
-    texels: &[Rgb],
+    channels: &[Channel<'_>],
     width: usize,
     samples: SampleFormat,
 ) -> (Vec<u8>, usize) {
@@ -135,7 +199,7 @@ fn block_data(
     let mut halves = vec![0; place.pixel_size.width()];
     for (_, line) in LineIndex::lines_in_block(place, &header.channels) {
         let start = line.position.y() * width + line.position.x();
-        let component = 2 - line.channel; // B G R
+        let Channel { texels, component, .. } = channels[line.channel];
         let values: Vec<f32> = texels[start..start + line.sample_count].iter().map(|t| t[component]).collect();
         match samples {
             SampleFormat::Float => data.extend_from_slice(bytemuck::cast_slice(&values)),

@@ -46,7 +46,7 @@ pub(super) fn build() -> Scene {
     add("light", quads(&[LAMP]), lamp);
     // A picture of 25 mm behind a lens of 35 mm.
     let angle = 2.0 * (0.0125f64 / 0.035).atan();
-    scene.add_camera(turned([278.0, 273.0, -800.0]), turned([278.0, 273.0, 0.0]), angle.to_degrees());
+    scene.add_camera(turned([278.0, 273.0, -800.0]), turned([278.0, 273.0, 0.0]), angle.to_degrees(), 1.0);
     scene
 }
 

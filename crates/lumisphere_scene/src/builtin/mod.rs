@@ -11,6 +11,9 @@ mod teapots;
 use crate::{Affine, Scene, SceneMaterial};
 use lumisphere_bsdf::{Material, PerceptualRoughness, Rgb};
 
+/// Width over height of the pictures that most cameras here are made for.
+const WIDE: f64 = 16.0 / 9.0;
+
 /// A scene made in code.
 ///
 /// ```
@@ -90,7 +93,7 @@ fn sphere() -> Scene {
     let mut scene = Scene::default();
     let (mesh, material) = (scene.add_mesh(shapes::sphere()), scene.add_material(plastic("dielectric", [0.5; 3], 0.5)));
     scene.place("sphere", mesh, material, Affine::IDENTITY);
-    scene.add_camera([0.0, 0.0, 6.0], [0.0; 3], 25.0);
+    scene.add_camera([0.0, 0.0, 6.0], [0.0; 3], 25.0, 1.0);
     scene
 }
 
@@ -99,7 +102,7 @@ fn plane() -> Scene {
     let matt = SceneMaterial::plain("matt", Material { specular: 0.0, ..plastic("", [0.5; 3], 1.0).factors });
     let (mesh, material) = (scene.add_mesh(shapes::plane([5.0, 5.0])), scene.add_material(matt));
     scene.place("plane", mesh, material, Affine::IDENTITY);
-    scene.add_camera([0.0, 3.0, 8.0], [0.0, 0.0, 0.0], 35.0);
+    scene.add_camera([0.0, 3.0, 8.0], [0.0, 0.0, 0.0], 35.0, WIDE);
     scene
 }
 

@@ -1,6 +1,6 @@
 //! A room for local probes: what is reflected depends on where one stands.
 
-use super::{metal, plastic, shapes, teapot};
+use super::{WIDE, metal, plastic, shapes, teapot};
 use crate::{Affine, Brightness, Light, Mesh, Scene};
 use lumisphere_sphere::Vec3;
 
@@ -17,7 +17,7 @@ pub(super) fn build() -> Scene {
     let halves = [[0.6, 0.0, 0.0], [0.0, 0.0, 0.3]];
     let center = [0.0, ROOM[1] - 0.01, 0.5];
     scene.lights.push(Light::rectangle("lamp", center, halves, [1.0, 0.9, 0.75], Brightness::Lumen(4000.0)));
-    scene.add_camera([2.9, 1.6, 2.6], [-0.8, 1.0, -1.2], 55.0);
+    scene.add_camera([2.9, 1.6, 2.6], [-0.8, 1.0, -1.2], 55.0, WIDE);
     scene
 }
 

@@ -1,6 +1,6 @@
 //! Teapots in two rows, a mirror ball, a glossy floor.
 
-use super::{metal, plastic, shapes, teapot};
+use super::{WIDE, metal, plastic, shapes, teapot};
 use crate::{Affine, Scene};
 
 /// Teapots in a row.
@@ -33,6 +33,6 @@ pub(super) fn build() -> Scene {
     let floor = scene.add_mesh(shapes::plane([12.0, 12.0]));
     let gloss = scene.add_material(plastic("floor", [0.12; 3], 0.15));
     scene.place("floor", floor, gloss, Affine::IDENTITY);
-    scene.add_camera([0.0, 3.4, 10.0], [0.0, 0.35, -0.6], 38.0);
+    scene.add_camera([0.0, 3.4, 10.0], [0.0, 0.35, -0.6], 38.0, WIDE);
     scene
 }

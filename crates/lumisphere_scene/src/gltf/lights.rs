@@ -1,18 +1,17 @@
-//! KHR_lights_punctual and EXT_lights_image_based.
+//! KHR_lights_punctual.
 
 use super::document::Document;
 use super::extension::extension;
 use crate::error::item;
-use crate::{Affine, ImageBasedLight, Light, LightShape, Scene, SceneError};
+use crate::{Affine, Light, LightShape, Scene, SceneError};
 use gltf_json::scene::Node;
-use lumisphere_sphere::Rotation;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 /// Which of them, at a node or a scene.
 #[derive(Deserialize)]
-struct Choice {
-    light: usize,
+pub(super) struct Choice {
+    pub light: usize,
 }
 
 #[derive(Deserialize)]
@@ -42,20 +41,6 @@ impl Default for Spot {
     }
 }
 
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct ImageBased {
-    #[serde(default)]
-    name: String,
-    #[serde(default = "no_turn")]
-    rotation: [f64; 4],
-    #[serde(default = "one")]
-    intensity: f64,
-    irradiance_coefficients: [[f64; 3]; 9],
-    specular_images: Vec<[usize; 6]>,
-    specular_image_size: usize,
-}
-
 fn white() -> [f64; 3] {
     [1.0; 3]
 }
@@ -64,12 +49,7 @@ fn one() -> f64 {
     1.0
 }
 
-fn no_turn() -> [f64; 4] {
-    [0.0, 0.0, 0.0, 1.0]
-}
-
 const PUNCTUAL: &str = "KHR_lights_punctual";
-const IMAGE_BASED: &str = "EXT_lights_image_based";
 
 impl Document<'_> {
     /// The light of a node, if it has one.
@@ -100,31 +80,13 @@ impl Document<'_> {
         Ok(())
     }
 
-    /// What the scene says of its environment.
-    pub(super) fn read_environment(&mut self, scene: &mut Scene) -> Result<(), SceneError> {
-        let index = self.root.scene.map_or(0, |i| i.value());
-        let Some(source) = self.root.scenes.get(index) else { return Ok(()) };
-        let at_scene = source.extensions.as_ref().map(|e| &e.others);
-        let what = format!("scene {index}");
-        let Some(choice) = extension::<Choice>(at_scene, IMAGE_BASED, &what)? else { return Ok(()) };
-        let light: ImageBased = self.listed(IMAGE_BASED, choice.light, &what)?;
-        for &image in light.specular_images.iter().flatten() {
-            item(&self.root.images, image, || format!("{IMAGE_BASED} light {}", choice.light), "image")?;
-        }
-        self.note("the pictures of EXT_lights_image_based are not read: give the environment itself");
-        scene.environment = Some(ImageBasedLight {
-            name: light.name,
-            rotation: rotation(light.rotation),
-            intensity: light.intensity,
-            irradiance_coefficients: light.irradiance_coefficients,
-            specular_image_size: light.specular_image_size,
-            level_count: light.specular_images.len(),
-        });
-        Ok(())
-    }
-
     /// A light of the list at the top of the file.
-    fn listed<T: serde::de::DeserializeOwned>(&self, name: &str, index: usize, what: &str) -> Result<T, SceneError> {
+    pub(super) fn listed<T: serde::de::DeserializeOwned>(
+        &self,
+        name: &str,
+        index: usize,
+        what: &str,
+    ) -> Result<T, SceneError> {
         let at_root = self.root.extensions.as_ref().map(|e| &e.others);
         let lights = at_root.and_then(|e| e.get(name)).and_then(|e| e.get("lights")).and_then(|l| l.as_array());
         let lights = lights.map_or(&[][..], |lights| &lights[..]);
@@ -165,10 +127,4 @@ fn shape(light: &Punctual, index: usize) -> Result<LightShape, SceneError> {
             Err(SceneError::invalid(format!("{}: type", what()), format!("{other:?}"), "point, spot or directional"))
         }
     }
-}
-
-/// Of a quaternion (x, y, z, w); a null one is none.
-fn rotation([x, y, z, w]: [f64; 4]) -> Rotation {
-    let sine = (x * x + y * y + z * z).sqrt();
-    if sine > 0.0 { Rotation::from_axis_angle([x, y, z], 2.0 * sine.atan2(w)) } else { Rotation::IDENTITY }
 }

@@ -55,7 +55,8 @@ impl Reader<'_, '_, '_> {
         self.base_extensions(&mut material, extensions)?;
         self.layer_extensions(&mut material, extensions)?;
         if extensions.is_some_and(|e| e.contains_key("KHR_materials_unlit")) {
-            self.document.note("unlit materials are lit");
+            self.document.note("unlit materials are black and emit their base color");
+            material = material.unlit();
         }
         self.check(&material)?;
         Ok(material)

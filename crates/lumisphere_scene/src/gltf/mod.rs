@@ -11,11 +11,12 @@
 //! | `pictures` | images, samplers and texture transforms |
 //! | `materials`, `material_extensions` | materials |
 //! | `nodes` | transforms, instances, cameras |
-//! | `lights` | KHR_lights_punctual and EXT_lights_image_based |
+//! | `lights`, `environment` | KHR_lights_punctual; EXT_lights_image_based |
 
 mod accessor;
 mod container;
 mod document;
+mod environment;
 mod extension;
 mod geometry;
 mod lights;
@@ -50,7 +51,7 @@ pub fn read_gltf(
     let mut document = Document::new(&container, limits, &mut resolve)?;
     let mut scene = Scene::default();
     document.read_nodes(&mut scene, &mut resolve)?;
-    document.read_environment(&mut scene)?;
+    document.read_environment(&mut scene, &mut resolve)?;
     document.note_what_is_left_out();
     scene.notes = document.notes;
     Ok(scene)

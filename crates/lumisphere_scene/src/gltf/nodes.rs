@@ -95,6 +95,9 @@ impl Document<'_> {
             let material = self.material(scene, material, &what, &mut *resolve)?;
             let tangents = scene.materials[material].tangent_uv_set();
             if let Some(mesh) = self.mesh(scene, [mesh, primitive], tangents)? {
+                if scene.materials[material].unlit && !scene.meshes[mesh].colors.is_empty() {
+                    self.note("vertex colors of unlit materials are ignored");
+                }
                 self.budget.take(what, 1, NODE_BYTES + name.len())?;
                 scene.place(name, mesh, material, *world_from_node);
             }

@@ -1,8 +1,8 @@
 //! Images, samplers and texture transforms.
 
+use super::Resolve;
 use super::document::Document;
 use super::extension::{TextureTransform, WebpTexture, extension};
-use super::{Resolve, uri};
 use crate::error::item;
 use crate::texture_slot::{Filter, TextureSlot, UvTransform, Wrap};
 use crate::{Encoding, Scene, SceneError, Texture};
@@ -87,15 +87,8 @@ impl Document<'_> {
         if let Some(known) = self.textures.get(&(index, encoding)) {
             return Ok(*known);
         }
-        let image = item(&self.root.images, index, || what.to_owned(), "image")?;
-        let what = format!("image {index}");
-        let name = image.name.clone().or_else(|| image.uri.clone().filter(|uri| !uri.starts_with("data:")));
-        let name = name.unwrap_or_else(|| what.clone());
-        let file = match (&image.uri, image.buffer_view) {
-            (Some(uri), _) => uri::fetch(&what, uri, resolve)?,
-            (None, Some(view)) => self.view(view.value(), &|| what.clone())?.0.to_vec(),
-            (None, None) => return Err(SceneError::invalid(what, "without uri and bufferView", "one of them")),
-        };
+        item(&self.root.images, index, || what.to_owned(), "image")?;
+        let (name, file) = self.image_file(index, resolve)?;
         let texture = Texture::decode(&name, encoding, &file, &mut self.budget)?;
         scene.textures.push(texture);
         let slot = scene.textures.len() - 1;
