@@ -9,12 +9,25 @@ use std::process::Command;
 /// The Python package that carries Embree's library.
 const PACKAGE: &str = "embreex==4.4.0.post1";
 
-/// Fetches Embree if it is not there, and runs the comparison; false if answers differ.
+/// Makes glibc ask for huge pages, as Embree does by itself.
+const HUGE_PAGES: (&str, &str) = ("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1");
+
+/// Fetches Embree if it is not there, and runs the comparison with pages of both sizes; false if answers differ.
 pub(crate) fn compare() -> Result<bool> {
     let embree = embree()?;
+    println!("pages as the system gives them");
+    if !run(&embree, None)? {
+        return Ok(false);
+    }
+    println!("huge pages for both ({}={})", HUGE_PAGES.0, HUGE_PAGES.1);
+    run(&embree, Some(HUGE_PAGES))
+}
+
+fn run(embree: &Path, variable: Option<(&str, &str)>) -> Result<bool> {
     let manifest = workspace::root().join("benches/rays/Cargo.toml");
     let mut run = workspace::cargo();
     run.args(["run", "--quiet", "--release", "--manifest-path"]).arg(manifest).arg("--").arg(embree);
+    run.envs(variable);
     Ok(run.status().context("cargo run")?.success())
 }
 

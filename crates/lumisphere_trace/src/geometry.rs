@@ -30,7 +30,9 @@ pub(crate) struct Part<'s> {
     /// Its first triangle.
     pub(crate) first: usize,
     /// -1 where triangles run clockwise seen from outside.
-    orientation: f64,
+    pub(crate) orientation: f64,
+    /// The normals of the world are these three, each times a component of that of the mesh.
+    normals: [Vec3; 3],
     /// Whether rays that meet it from behind go on.
     one_sided: bool,
 }
@@ -74,20 +76,34 @@ impl<'s> Geometry<'s> {
     }
 
     /// Twice the area times the outward normal.
+    #[inline]
     pub(crate) fn area_vector(&self, triangle: u32) -> Vec3 {
-        let [a, b, c] = self.corners(triangle).map(|p| p.map(f64::from));
-        scale(cross(sub(b, a), sub(c, a)), self.part(triangle).orientation)
+        area_vector(self.corners(triangle), self.part(triangle).orientation)
     }
 
-    /// The outward unit normal; +Y for a triangle without area.
-    pub(crate) fn normal(&self, triangle: u32) -> Vec3 {
-        try_normalize(self.area_vector(triangle)).unwrap_or([0.0, 1.0, 0.0])
+    /// A point of a triangle and its outward unit normal; +Y for a triangle without area.
+    #[inline]
+    pub(crate) fn point_and_normal(&self, triangle: u32, [u, v]: [f32; 2]) -> ([f32; 3], Vec3) {
+        let corners = self.corners(triangle);
+        let area = area_vector(corners, self.part(triangle).orientation);
+        (hit_point(corners, u, v), try_normalize(area).unwrap_or([0.0, 1.0, 0.0]))
     }
 
     /// What the vertices carry, in the space of the mesh.
     pub(crate) fn surface_point(&self, triangle: u32, [u, v]: [f32; 2]) -> SurfacePoint {
         let part = self.part(triangle);
         part.mesh.surface_point(triangle as usize - part.first, [f64::from(u), f64::from(v)])
+    }
+
+    /// The interpolated normal in the world, not normalised.
+    #[inline]
+    pub(crate) fn smooth_normal(&self, triangle: u32, [u, v]: [f32; 2]) -> Vec3 {
+        let part = self.part(triangle);
+        let [u, v] = [u, v].map(f64::from);
+        let [a, b, c] =
+            part.mesh.triangles[triangle as usize - part.first].map(|i| part.mesh.normals[i as usize].map(f64::from));
+        let [x, y, z]: Vec3 = std::array::from_fn(|i| (1.0 - u - v) * a[i] + u * b[i] + v * c[i]);
+        std::array::from_fn(|i| part.normals[0][i] * x + part.normals[1][i] * y + part.normals[2][i] * z)
     }
 
     /// The nearest triangle that is there for a ray; holes are drawn by `key`.
@@ -139,8 +155,15 @@ impl<'s> Part<'s> {
         expect_vertex_data(mesh, index)?;
         let orientation = if instance.world_from_local.is_mirrored() { -1.0 } else { 1.0 };
         let one_sided = !material.double_sided && material.factors.transmission <= 0.0;
-        Ok(Self { mesh, instance, material, first, orientation, one_sided })
+        let normals = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|n| instance.world_from_local.normal(n));
+        Ok(Self { mesh, instance, material, first, orientation, normals, one_sided })
     }
+}
+
+#[inline]
+fn area_vector(corners: [[f32; 3]; 3], orientation: f64) -> Vec3 {
+    let [a, b, c] = corners.map(|p| p.map(f64::from));
+    scale(cross(sub(b, a), sub(c, a)), orientation)
 }
 
 /// The lists of a mesh are as long as its positions, or may be empty.

@@ -13,6 +13,7 @@ use crate::vertex::Vertex;
 use crate::world::{Meeting, World, leaving};
 use lumisphere_bsdf::Rgb;
 use lumisphere_sphere::Vec3;
+use lumisphere_sphere::vector::try_normalize;
 
 /// What a path from the eye found.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -66,8 +67,8 @@ impl PathTracer<'_> {
         let mut last: Option<Last> = None;
         let mut scatterings = 0;
         loop {
-            let vertex = match self.world.meet(&ray, sampler.stray_key(ALONG)) {
-                Meeting::Surface(vertex) => vertex,
+            let place = match self.world.meet(&ray, sampler.stray_key(ALONG)) {
+                Meeting::Surface(place) => place,
                 Meeting::Nothing => {
                     add(&mut found.radiance, throughput, self.environment_met(ray.direction.map(f64::from), last));
                     return found;
@@ -77,6 +78,8 @@ impl PathTracer<'_> {
                     return found;
                 }
             };
+            let direction = ray.direction.map(f64::from);
+            let vertex = Vertex::new(self.world, place, try_normalize(direction).unwrap_or(direction));
             if scatterings == 0 {
                 found.first = Some(first_hit(&vertex));
             }
@@ -121,7 +124,7 @@ impl PathTracer<'_> {
     }
 
     fn try_light(&self, vertex: &Vertex, sampler: &Sampler) -> Option<Rgb> {
-        let (source, probability) = self.choose(sampler.number(CHOICE))?;
+        let (source, probability) = self.choose(|| sampler.number(CHOICE))?;
         let arriving = self.world.arriving(source, vertex.point.map(f64::from), sampler.numbers(LIGHT))?;
         let (scattered, surface_pdf) = vertex.scattered(arriving.wi)?;
         let factor = match arriving.density {
@@ -137,7 +140,7 @@ impl PathTracer<'_> {
     }
 
     /// A light of those that count, and its probability.
-    fn choose(&self, u: f64) -> Option<(Source, f64)> {
+    fn choose(&self, u: impl FnOnce() -> f64) -> Option<(Source, f64)> {
         match self.settings.light_paths {
             LightPaths::Environment => Some((Source::Environment, 1.0)),
             LightPaths::Direct | LightPaths::Full => self.world.lights().choose(u),
@@ -153,8 +156,8 @@ impl PathTracer<'_> {
 
     fn environment_met(&self, wi: Vec3, last: Option<Last>) -> Rgb {
         let Some(environment) = self.world.environment() else { return [0.0; 3] };
-        let light_pdf = |_: &Last| environment.pdf(wi) * self.probability(Source::Environment);
-        self.weighed(environment.radiance(wi), last, light_pdf)
+        let (radiance, pdf) = environment.look(wi);
+        self.weighed(radiance, last, |_| pdf * self.probability(Source::Environment))
     }
 
     fn shape_met(&self, index: usize, radiance: Rgb, last: Option<Last>) -> Rgb {

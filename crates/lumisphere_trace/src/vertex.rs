@@ -39,28 +39,30 @@ impl<'w> Vertex<'w> {
     pub(crate) fn new(world: &'w World, place: Place, direction: Vec3) -> Self {
         let geometry = world.geometry();
         let part = geometry.part(place.triangle);
-        let local = geometry.surface_point(place.triangle, place.at);
-        let (finish, bump) = world.finish(part.instance.material, &local);
+        let (point, outward) = geometry.point_and_normal(place.triangle, place.at);
         let wo = scale(direction, -1.0);
-        let outward = geometry.normal(place.triangle);
+        let (finish, textured) = match world.constant_finish(part.instance.material) {
+            Some(finish) if part.mesh.tangents.is_empty() => (Cow::Borrowed(finish), None),
+            _ => {
+                let local = geometry.surface_point(place.triangle, place.at);
+                let (finish, bump) = world.finish(part.instance.material, &local);
+                (finish, local.tangent.map(|tangent| (tangent, bump)))
+            }
+        };
         let turned = !matches!(finish.scatter, Scatter::Body(_)) && dot(outward, wo) < 0.0;
         let side = if turned { -1.0 } else { 1.0 };
         let normal = scale(outward, side);
-        let map = &part.instance.world_from_local;
-        let smooth = try_normalize(map.normal(local.normal)).unwrap_or(outward);
-        let tangent = local.tangent.map(|[x, y, z, w]| (map.vector([x, y, z]), w));
-        let mirrored = if map.is_mirrored() { -1.0 } else { 1.0 };
-        let unbent = shading_frame(smooth, tangent.map(|(t, w)| (t, w * mirrored)), bump);
+        let smooth = try_normalize(geometry.smooth_normal(place.triangle, place.at)).unwrap_or(outward);
+        let unbent = match textured {
+            None => Frame::from_normal(smooth),
+            Some(([x, y, z, w], bump)) => {
+                let tangent = part.instance.world_from_local.vector([x, y, z]);
+                shading_frame(smooth, (tangent, w * part.orientation), bump)
+            }
+        };
         let frame = facing(Frame { normal: scale(unbent.normal, side), ..unbent }, wo, dot(normal, wo));
-        Self {
-            place,
-            point: geometry.point(place.triangle, place.at),
-            normal,
-            material: part.material,
-            wo: frame.local_from_world(wo),
-            frame,
-            finish,
-        }
+        let wo = frame.local_from_world(wo);
+        Self { place, point, normal, material: part.material, wo, frame, finish }
     }
 
     /// f |cos θ| for light from `wi`, and the density with which [`Vertex::sample`] goes there; `None` where the sides of shading and
@@ -91,9 +93,8 @@ impl<'w> Vertex<'w> {
     }
 }
 
-/// The frame of shading about the outer normal: tangents from the mesh where it has them, the normal bent by `bump`.
-fn shading_frame(normal: Vec3, tangent: Option<(Vec3, f64)>, bump: Option<Vec3>) -> Frame {
-    let Some((tangent, handedness)) = tangent else { return Frame::from_normal(normal) };
+/// The frame of shading about the outer normal: tangents along those of the mesh, the normal bent by `bump`.
+fn shading_frame(normal: Vec3, (tangent, handedness): (Vec3, f64), bump: Option<Vec3>) -> Frame {
     let frame = frame_along(normal, tangent, handedness);
     match bump.and_then(|bump| try_normalize(frame.world_from_local(bump))) {
         Some(normal) => frame_along(normal, frame.tangent, handedness),

@@ -18,7 +18,9 @@ use std::sync::Arc;
 ///
 /// What a path tracer needs beyond what the scene says:
 /// - Triangles of materials that are neither double-sided nor transmit are seen from outside only; a ray that meets them from behind
-///   goes on, as a renderer that culls back faces has it.
+///   goes on, as a renderer that culls back faces has it. All rays do so alike, those to lights too, so that light asked at the lights
+///   is light that is met. Such a triangle is a one-way mirror: what lies before its front is shaded by it and sees it, even where the
+///   eye looks through its back.
 /// - A material with a volume bounds a body that light passes, with the index of the material; without one it is thin.
 /// - Sphere and rectangle lights are seen, and stop what meets their shining side; the back of a rectangle is not there.
 /// - The clear coat has the normal of the surface below it.
@@ -35,13 +37,13 @@ pub struct World<'a> {
 
 /// What a ray meets.
 #[derive(Debug)]
-pub(crate) enum Meeting<'w> {
+pub(crate) enum Meeting {
     /// Nothing: the environment.
     Nothing,
     /// One of the scene's lights.
     Light { index: usize, radiance: Rgb },
     /// A surface.
-    Surface(Box<Vertex<'w>>),
+    Surface(Place),
 }
 
 /// Samples along each side of a triangle for the mean of what it emits.
@@ -102,23 +104,29 @@ impl<'a> World<'a> {
     }
 
     /// The nearest thing along a ray whose holes are drawn by `key`.
-    pub(crate) fn meet(&self, ray: &Ray, key: u64) -> Meeting<'_> {
+    pub(crate) fn meet(&self, ray: &Ray, key: u64) -> Meeting {
         let hit = self.geometry.closest(ray, f32::MAX, key);
-        let (origin, direction) = (ray.origin.map(f64::from), ray.direction.map(f64::from));
-        let direction = try_normalize(direction).unwrap_or(direction);
         let end = hit.map_or(f64::INFINITY, |hit| f64::from(hit.t));
-        let met = |(index, light): (usize, &Light)| {
-            shape::meet(&light.shape, origin, direction).map(|(t, radiance)| (t, index, radiance))
-        };
-        let nearest = self.scene.lights.iter().enumerate().filter_map(met).min_by(|a, b| a.0.total_cmp(&b.0));
-        match (nearest, hit) {
+        match (self.nearest_light(ray), hit) {
             (Some((t, index, radiance)), _) if t < end => Meeting::Light { index, radiance },
             (_, Some(hit)) => {
-                let place = Place { triangle: hit.triangle, at: [hit.u, hit.v], distance: f64::from(hit.t) };
-                Meeting::Surface(Box::new(Vertex::new(self, place, direction)))
+                Meeting::Surface(Place { triangle: hit.triangle, at: [hit.u, hit.v], distance: f64::from(hit.t) })
             }
             _ => Meeting::Nothing,
         }
+    }
+
+    /// Distance, index and radiance.
+    fn nearest_light(&self, ray: &Ray) -> Option<(f64, usize, Rgb)> {
+        if self.scene.lights.is_empty() {
+            return None;
+        }
+        let origin = ray.origin.map(f64::from);
+        let direction = try_normalize(ray.direction.map(f64::from))?;
+        let met = |(index, light): (usize, &Light)| {
+            shape::meet(&light.shape, origin, direction).map(|(t, radiance)| (t, index, radiance))
+        };
+        self.scene.lights.iter().enumerate().filter_map(met).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// Whether light from `arriving` reaches a point of a surface with this outer normal.
@@ -168,17 +176,21 @@ impl<'a> World<'a> {
         self.emission(triangle, at)
     }
 
+    /// The material that is the same everywhere, normals too.
+    #[inline]
+    pub(crate) fn constant_finish(&self, material: usize) -> Option<&Finish> {
+        self.finishes[material].as_ref().filter(|_| self.scene.materials[material].textures.normal.is_none())
+    }
+
     /// The material at a place, and the normal of its texture in the frame of tangent, bitangent and normal.
     pub(crate) fn finish(&self, material: usize, point: &SurfacePoint) -> (Cow<'_, Finish>, Option<Vec3>) {
         let (index, material) = (material, &self.scene.materials[material]);
-        match &self.finishes[index] {
-            Some(finish) if material.textures.normal.is_none() => (Cow::Borrowed(finish), None),
-            finish => {
-                let found = material.at(&self.scene.textures, &point.uv, point.color);
-                let made = || Cow::Owned(Finish::new(&found.material, material.volume.as_ref(), self.tables));
-                (finish.as_ref().map_or_else(made, Cow::Borrowed), Some(found.normal))
-            }
+        if let Some(finish) = self.constant_finish(index) {
+            return (Cow::Borrowed(finish), None);
         }
+        let found = material.at(&self.scene.textures, &point.uv, point.color);
+        let made = || Cow::Owned(Finish::new(&found.material, material.volume.as_ref(), self.tables));
+        (self.finishes[index].as_ref().map_or_else(made, Cow::Borrowed), Some(found.normal))
     }
 
     fn emission(&self, triangle: u32, at: [f32; 2]) -> Rgb {

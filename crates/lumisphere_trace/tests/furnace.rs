@@ -12,6 +12,8 @@ use worlds::*;
 const ERRORS: f64 = 4.0;
 /// Lambert's lobe is exact.
 const EXACT: f64 = 1e-4;
+/// A closed furnace.
+const CLOSED: f64 = 1e-3;
 /// What the albedo tables of the layered material leave (`furnace_holds_for_every_metallic` of the reflectance crate).
 const LAYERED: f64 = 2e-3;
 
@@ -22,7 +24,7 @@ const ROUGH_GLASS: f64 = 5e-3;
 #[test]
 fn closed() {
     let tables = tables();
-    // Not by lights alone: near an edge 1/d² has no variance to test with.
+    // Not by lights alone: near an edge 1/d² has a mean but no variance, so that the mean of any number of samples is low as a rule.
     for (albedo, sampling) in [(0.5, LightSampling::Combined), (0.8, LightSampling::Surfaces)] {
         let material = SceneMaterial::plain("", Material { emissive: [1.0, 0.5, 0.0], ..matt(albedo) });
         let scene = scene(sides([1.0, 2.0, 1.5], -1.0), material);
@@ -32,6 +34,21 @@ fn closed() {
         found.expect(0.5 / (1.0 - albedo), ERRORS, EXACT, 0.01, &format!("albedo {albedo}, {sampling:?}"));
         assert_eq!(found.mean[2], 0.0);
     }
+}
+
+/// Inside a ball every point of the surface sends as much to every other: lights alone have little noise.
+#[test]
+fn closed_by_lights_alone() {
+    let tables = tables();
+    let material = SceneMaterial::plain("", Material { emissive: [1.0; 3], ..matt(0.5) });
+    let scene = scene(vec![ball_from_inside(4)], material);
+    let world = World::new(&scene, None, &tables).unwrap();
+    let camera = Camera::looking_at([0.3, -0.2, 0.4], [1.0, 0.3, -0.5], 1.0);
+    let found = estimate(&world, &camera, 12, with_sampling(independent(64), LightSampling::Lights));
+    found.expect(2.0, ERRORS, CLOSED, 3e-3, "lights alone");
+    // The same with both.
+    let found = estimate(&world, &camera, 12, independent(64));
+    found.expect(2.0, ERRORS, CLOSED, 0.01, "both");
 }
 
 /// With a limit of bounces the sum ends: Le Σ ρ^k.

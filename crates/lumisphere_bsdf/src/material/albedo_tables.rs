@@ -1,6 +1,6 @@
 //! Directional albedo of the layers, as a table that a [`super::Surface`] takes its row of.
 
-use super::nodes::{mix, mix_pairs, node, place, value_at};
+use super::nodes::{average_weights, mix, mix_pairs, node, place, value_at};
 use crate::dfg::{CharlieAlbedo, GgxAlbedo};
 use crate::fresnel::schlick_weight;
 use crate::{Masking, PerceptualRoughness, SheenMasking};
@@ -20,6 +20,8 @@ pub struct AlbedoTables {
     /// (scale, bias) with E = F0·scale + F90·bias, row by row.
     specular: Vec<[f64; 2]>,
     sheen: Vec<f64>,
+    /// Of the nodes over n·v, for averages.
+    weights: Vec<f64>,
 }
 
 /// The sheen row of one roughness.
@@ -44,7 +46,13 @@ impl AlbedoTables {
         Self {
             specular: nodes().map(terms).collect(),
             sheen: nodes().map(|(n_dot_v, p)| sheen.value(n_dot_v, p.to_alpha())).collect(),
+            weights: average_weights(COSINES),
         }
+    }
+
+    /// The weights of the [`COSINES`] nodes in averages.
+    pub(super) fn weights(&self) -> &[f64] {
+        &self.weights
     }
 
     /// (scale, bias) at the [`COSINES`] nodes.
@@ -107,7 +115,7 @@ mod tests {
                 assert!(error < ACCURACY_AT_THE_HORIZON, "sheen, n·v = {n_dot_v}, p = {}: {error}", p.value());
             }
             let average = ggx_average_albedo(p.to_alpha(), Masking::SmithGgxCorrelated);
-            let error = (row.average(|[scale, bias]| scale + bias) - average).abs();
+            let error = (row.average(tables.weights(), |[scale, bias]| scale + bias) - average).abs();
             assert!(error < ACCURACY_OF_AVERAGES, "p = {}: {error}", p.value());
         }
     }

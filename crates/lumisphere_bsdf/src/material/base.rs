@@ -55,7 +55,7 @@ impl Base {
             coupling: material.coupling,
             balance: Balance::NONE,
         };
-        base.balance = base.balanced();
+        base.balance = base.balanced(tables);
         base
     }
 
@@ -117,11 +117,11 @@ impl Base {
         (1.0 - self.lobe.albedo(self.brightest(), w, self.compensation)).max(0.0)
     }
 
-    fn balanced(&self) -> Balance {
+    fn balanced(&self, tables: &AlbedoTables) -> Balance {
         let part = self.brightest();
         match self.coupling {
             DiffuseCoupling::Reciprocal if self.diffuse.sigma == 0.0 => {
-                Balance::of_lambert(self.lobe.average_through(part, self.compensation))
+                Balance::of_lambert(self.lobe.average_through(part, self.compensation, tables))
             }
             DiffuseCoupling::Reciprocal => {
                 Balance::of(self.diffuse.sigma, |n_dot_v| self.lobe.mean_through(part, n_dot_v, self.compensation))

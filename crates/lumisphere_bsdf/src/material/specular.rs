@@ -34,7 +34,7 @@ pub(super) struct Seen {
 impl SpecularLobe {
     pub(super) fn new(facets: Facets, tables: &AlbedoTables) -> Self {
         let albedo = SpecularAlbedo::new(&facets, tables);
-        let average = albedo.average(|[scale, bias]| scale + bias);
+        let average = albedo.average(tables.weights(), |[scale, bias]| scale + bias);
         Self { facets, albedo, average }
     }
 
@@ -73,8 +73,8 @@ impl SpecularLobe {
     }
 
     /// The cosine-weighted average over all views of the same.
-    pub(super) fn average_through(&self, part: Ends, compensation: Compensation) -> f64 {
-        self.albedo.average(|terms| 1.0 - compensation.albedo(part, terms, self.average)).max(0.0)
+    pub(super) fn average_through(&self, part: Ends, compensation: Compensation, tables: &AlbedoTables) -> f64 {
+        self.albedo.average(tables.weights(), |terms| 1.0 - compensation.albedo(part, terms, self.average)).max(0.0)
     }
 
     /// The mirrored direction of a visible normal; `None` below the horizon.

@@ -78,13 +78,15 @@ impl SpecularAlbedo {
         (0..last).map(panel).sum::<f64>() / FRAC_PI_2
     }
 
-    /// The cosine-weighted average over all views of g(scale, bias).
-    pub(super) fn average(&self, g: impl Fn([f64; 2]) -> f64) -> f64 {
-        let count = self.rows[0].len();
-        let weights = average_weights(count).into_iter().enumerate();
+    /// The cosine-weighted average over all views of g(scale, bias); `weights` are those of the tables' nodes.
+    pub(super) fn average(&self, weights: &[f64], g: impl Fn([f64; 2]) -> f64) -> f64 {
         match self.rows.as_slice() {
-            [row] => weights.map(|(i, weight)| weight * g(row[i])).sum(),
-            _ => weights.map(|(i, weight)| weight * self.mean(node(i, count), &g)).sum(),
+            [row] => weights.iter().zip(row).map(|(weight, &terms)| weight * g(terms)).sum(),
+            rows => {
+                let count = rows[0].len();
+                let weights = average_weights(count).into_iter().enumerate();
+                weights.map(|(i, weight)| weight * self.mean(node(i, count), &g)).sum()
+            }
         }
     }
 }

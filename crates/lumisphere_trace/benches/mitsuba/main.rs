@@ -3,7 +3,8 @@
 //! Rounds of all contenders alternate. In a round each renders the picture several times with other random numbers; the first, which
 //! may compile kernels, is not timed. The pictures' variance, over the square of their mean, is the error: neither program is biased
 //! (test `mitsuba`). Time times error is what it costs to reach an error of 1, if noise falls as it does for independent samples; ours
-//! are Owen-scrambled Sobol points, the default, Mitsuba's its default too, independent.
+//! are Owen-scrambled Sobol points, the default, Mitsuba's its default too, independent, and then its stratified ones, `multijitter`, by the
+//! last of its variants.
 #![allow(clippy::print_stdout, clippy::print_stderr, clippy::unwrap_used)]
 
 #[path = "../../tests/mitsuba/judge.rs"]
@@ -71,21 +72,26 @@ fn main() {
 fn compare(scene: &Twin, variants: &[&str]) {
     let tables = AlbedoTables::compute();
     let world = scene.world(&tables);
-    let mut measured: Vec<Vec<Measured>> = vec![Vec::new(); variants.len() + 1];
+    let stratified = variants.last().map(|variant| (*variant, "multijitter"));
+    let theirs: Vec<(&str, &str)> =
+        variants.iter().map(|variant| (*variant, "independent")).chain(stratified).collect();
+    let mut measured: Vec<Vec<Measured>> = vec![Vec::new(); theirs.len() + 1];
     for round in 0..ROUNDS {
         let seed = 1 + round * PASSES;
         measured[0].push(result(&ours(scene, &world, seed)));
-        for (found, variant) in measured[1..].iter_mut().zip(variants) {
-            found.push(result(&pictures(&[scene.job([PASSES, SAMPLES, seed])], Some(variant))[0]));
+        for (found, (variant, sampler)) in measured[1..].iter_mut().zip(&theirs) {
+            let mut job = scene.job([PASSES, SAMPLES, seed]);
+            job.scene["sensor"]["sampler"]["type"] = (*sampler).into();
+            found.push(result(&pictures(&[job], Some(variant))[0]));
         }
     }
     println!(
-        "\n{:<10} {:<14} {:>10} {:>16} {:>12} {:>14}  over ours (rounds)",
+        "\n{:<10} {:<24} {:>10} {:>16} {:>12} {:>14}  over ours (rounds)",
         scene.name, "", "s", "Msamples/s", "error", "s to 1 % error"
     );
-    let names = std::iter::once("lumisphere").chain(variants.iter().copied());
-    for (name, rounds) in names.zip(&measured) {
-        println!("{:<10} {name:<14} {}", "", row(rounds, &measured[0]));
+    let names = theirs.iter().map(|(variant, sampler)| format!("{variant} {sampler}"));
+    for (name, rounds) in std::iter::once("lumisphere".to_owned()).chain(names).zip(&measured) {
+        println!("{:<10} {name:<24} {}", "", row(rounds, &measured[0]));
     }
 }
 

@@ -1,20 +1,34 @@
 //! Choosing one of many by weight.
 
-/// Running sums of weights: the running total after each, so that `sums[i] - sums[i - 1]` is the weight of i as it is drawn.
+/// Running sums of weights, and where to look in them (H. C. Chen and Y. Asau, "On Generating Random Variates from an Empirical
+/// Distribution", AIIE Transactions 6(2), 1974): the index grows with u.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Distribution {
+    /// The total after each weight, so that `sums[i] - sums[i - 1]` is the weight of i as it is drawn.
     sums: Vec<f64>,
+    /// The index for u = k / n, for each k below the number n of weights.
+    guide: Vec<u32>,
 }
 
 impl Distribution {
-    /// Of weights that are finite and at least 0; what is not counts as 0.
+    /// Of fewer than 2³² weights that are finite and at least 0; what is not counts as 0.
     pub(crate) fn new(weights: impl Iterator<Item = f64>) -> Self {
         let mut sum = 0.0;
         let sums = weights.map(|weight| {
             sum += if weight > 0.0 && weight < f64::INFINITY { weight } else { 0.0 };
             sum
         });
-        Self { sums: sums.collect() }
+        let sums: Vec<f64> = sums.collect();
+        let (mut index, last) = (0, sums.len().saturating_sub(1));
+        let guide = (0..sums.len()).map(|k| {
+            let target = k as f64 / sums.len() as f64 * sum;
+            while index < last && sums[index] <= target {
+                index += 1;
+            }
+            index as u32
+        });
+        let guide = guide.collect();
+        Self { sums, guide }
     }
 
     /// The sum of all weights.
@@ -25,33 +39,39 @@ impl Distribution {
     /// The probability of `index`; 0 if all weights are 0.
     pub(crate) fn probability(&self, index: usize) -> f64 {
         let total = self.total();
-        if total > 0.0 { weight(&self.sums, index) / total } else { 0.0 }
+        if total > 0.0 { (self.sums[index] - self.before(index)) / total } else { 0.0 }
     }
 
     /// The index for u in [0, 1), and where in its interval u fell; `None` if all weights are 0.
+    #[inline]
     pub(crate) fn sample(&self, u: f64) -> Option<(usize, f64)> {
-        place(&self.sums, u)
+        let total = self.total();
+        if total <= 0.0 {
+            return None;
+        }
+        let target = u * total;
+        let index = self.index(u, target);
+        let before = self.before(index);
+        Some((index, ((target - before) / (self.sums[index] - before)).clamp(0.0, 1.0)))
     }
-}
 
-/// The weight of `index` as [`place`] draws it.
-#[inline]
-pub(crate) fn weight(sums: &[f64], index: usize) -> f64 {
-    sums[index] - if index == 0 { 0.0 } else { sums[index - 1] }
-}
-
-/// [`Distribution::sample`] of running sums.
-pub(crate) fn place(sums: &[f64], u: f64) -> Option<(usize, f64)> {
-    let total = *sums.last()?;
-    if total <= 0.0 {
-        return None;
+    /// The first sum above the target ends an interval that is not empty.
+    #[inline]
+    fn index(&self, u: f64, target: f64) -> usize {
+        let k = ((u * self.guide.len() as f64) as usize).min(self.guide.len() - 1);
+        let (low, high) = (self.guide[k] as usize, self.guide.get(k + 1).map_or(self.sums.len(), |&i| i as usize + 1));
+        let mut index = low + self.sums[low..high].partition_point(|&sum| sum <= target);
+        // Rounding: k may be one too large, u times the total may be the total.
+        while index > 0 && self.sums[index - 1] > target {
+            index -= 1;
+        }
+        if index == self.sums.len() { self.sums.partition_point(|&sum| sum < self.total()) } else { index }
     }
-    let target = u * total;
-    // The first sum above the target ends an interval that is not empty; u·total may round up to the total.
-    let last = sums.partition_point(|&sum| sum < total);
-    let index = sums.partition_point(|&sum| sum <= target).min(last);
-    let before = if index == 0 { 0.0 } else { sums[index - 1] };
-    Some((index, ((target - before) / (sums[index] - before)).clamp(0.0, 1.0)))
+
+    #[inline]
+    fn before(&self, index: usize) -> f64 {
+        if index == 0 { 0.0 } else { self.sums[index - 1] }
+    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 mod distribution;
 mod environment;
+mod knots;
 pub(crate) mod shape;
 mod table;
 

@@ -24,6 +24,8 @@ pub(crate) struct LightTable {
     /// Triangles that emit, ascending.
     triangles: Vec<u32>,
     choice: Distribution,
+    /// The light that is chosen for sure.
+    only: Option<Source>,
 }
 
 impl LightTable {
@@ -38,16 +40,22 @@ impl LightTable {
         let (local, distant): (Vec<f64>, Vec<f64>) = (local.collect(), distant.collect());
         let scales = [share(&local), share(&distant)];
         let weights = local.iter().zip(&distant).map(|(a, b)| a * scales[0] + b * scales[1]);
-        Self {
+        let mut table = Self {
             shapes: shapes.len(),
             triangles: triangles.iter().map(|t| t.0).collect(),
             choice: Distribution::new(weights),
-        }
+            only: None,
+        };
+        table.only = table.choose(|| 0.0).filter(|(_, probability)| *probability == 1.0).map(|(source, _)| source);
+        table
     }
 
-    /// A light and its probability.
-    pub(crate) fn choose(&self, u: f64) -> Option<(Source, f64)> {
-        let (index, _) = self.choice.sample(u)?;
+    /// A light and its probability, by a number that is asked for only if there are several.
+    pub(crate) fn choose(&self, u: impl FnOnce() -> f64) -> Option<(Source, f64)> {
+        if let Some(only) = self.only {
+            return Some((only, 1.0));
+        }
+        let (index, _) = self.choice.sample(u())?;
         let source = match index.checked_sub(self.shapes) {
             None => Source::Shape(index),
             Some(i) => self.triangles.get(i).map_or(Source::Environment, |&triangle| Source::Triangle(triangle)),
@@ -57,6 +65,9 @@ impl LightTable {
 
     /// The probability of a light.
     pub(crate) fn probability(&self, source: Source) -> f64 {
+        if self.only == Some(source) {
+            return 1.0;
+        }
         let index = match source {
             Source::Shape(index) => index,
             Source::Triangle(triangle) => match self.triangles.binary_search(&triangle) {
@@ -117,12 +128,12 @@ mod tests {
         }
         let mut counts = [0; 5];
         for i in 0..800 {
-            let (source, probability) = table.choose((f64::from(i) + 0.5) / 800.0).unwrap();
+            let (source, probability) = table.choose(|| (f64::from(i) + 0.5) / 800.0).unwrap();
             let index = expected.iter().position(|e| e.0 == source).unwrap();
             assert!((probability - expected[index].1).abs() < 1e-12);
             counts[index] += 1;
         }
         assert_eq!(counts, [100, 300, 100, 200, 100]);
-        assert_eq!(LightTable::new(&[], &[], 0.0).choose(0.5), None);
+        assert_eq!(LightTable::new(&[], &[], 0.0).choose(|| 0.5), None);
     }
 }

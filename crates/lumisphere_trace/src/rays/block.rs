@@ -8,16 +8,16 @@
 //! of doubles, which are exact, decide.
 
 use super::frame::Frame;
-use fearless_simd::{f32x4, prelude::*};
+use fearless_simd::{f32x8, prelude::*};
 
 /// Triangles a block.
-pub(super) const BLOCK: usize = 4;
+pub(super) const BLOCK: usize = 8;
 /// Edge functions outside these magnitudes lose digits to the range of f32: doubles take over.
 const SAFE: std::ops::Range<f32> = 1e-30..1e30;
 
-/// Up to four triangles, coordinates of equal kind side by side.
+/// Up to eight triangles, coordinates of equal kind side by side. Five cache lines.
 #[derive(Debug, Clone)]
-#[repr(align(32))]
+#[repr(align(64))]
 pub(super) struct Block {
     /// `[axis][vertex][triangle]`
     pub vertices: [[[f32; BLOCK]; 3]; 3],
@@ -32,15 +32,24 @@ impl Block {
 #[derive(Clone, Copy)]
 pub(super) struct Shear<S: Simd> {
     axes: [usize; 3],
-    origin: [f32x4<S>; 3],
-    slopes: [f32x4<S>; 2],
+    origin: [f32x8<S>; 3],
+    slopes: [f32x8<S>; 2],
 }
 
 /// Triangles that may be hit, one bit each, and their edge functions and depths along the shear's axis, vertex by vertex.
-pub(super) struct Candidates {
+pub(super) struct Candidates<S: Simd> {
     pub lanes: u32,
-    edges: [[f32; BLOCK]; 3],
-    depths: [[f32; BLOCK]; 3],
+    edges: [f32x8<S>; 3],
+    depths: [f32x8<S>; 3],
+}
+
+/// Triangles that are hit in a range of t, or for which doubles must tell, one bit each.
+pub(super) struct Crossings {
+    pub lanes: u32,
+    certain: u32,
+    t: [f32; BLOCK],
+    u: [f32; BLOCK],
+    v: [f32; BLOCK],
 }
 
 /// Where the line of a ray meets a triangle.
@@ -57,51 +66,59 @@ pub(super) fn spread<S: Simd>(simd: S, frame: &Frame) -> Shear<S> {
     let o = &frame.origin;
     Shear {
         axes: frame.axes,
-        origin: [f32x4::splat(simd, o[x]), f32x4::splat(simd, o[y]), f32x4::splat(simd, o[z])],
-        slopes: [f32x4::splat(simd, frame.shear[0]), f32x4::splat(simd, frame.shear[1])],
+        origin: [f32x8::splat(simd, o[x]), f32x8::splat(simd, o[y]), f32x8::splat(simd, o[z])],
+        slopes: [f32x8::splat(simd, frame.shear[0]), f32x8::splat(simd, frame.shear[1])],
     }
 }
 
 /// The triangles whose edge functions do not have opposite signs.
 #[inline(always)]
-pub(super) fn candidates<S: Simd>(simd: S, block: &Block, shear: &Shear<S>) -> Candidates {
-    let zero = f32x4::splat(simd, 0.0);
+pub(super) fn candidates<S: Simd>(simd: S, block: &Block, shear: &Shear<S>) -> Candidates<S> {
+    let zero = f32x8::splat(simd, 0.0);
     let (mut x, mut y, mut z) = ([zero; 3], [zero; 3], [zero; 3]);
     let [xs, ys, zs] = [&block.vertices[shear.axes[0]], &block.vertices[shear.axes[1]], &block.vertices[shear.axes[2]]];
     for i in 0..3 {
-        z[i] = f32x4::load_array_ref(simd, &zs[i]) - shear.origin[2];
-        x[i] = (f32x4::load_array_ref(simd, &xs[i]) - shear.origin[0]) - shear.slopes[0] * z[i];
-        y[i] = (f32x4::load_array_ref(simd, &ys[i]) - shear.origin[1]) - shear.slopes[1] * z[i];
+        z[i] = f32x8::load_array_ref(simd, &zs[i]) - shear.origin[2];
+        x[i] = (f32x8::load_array_ref(simd, &xs[i]) - shear.origin[0]) - shear.slopes[0] * z[i];
+        y[i] = (f32x8::load_array_ref(simd, &ys[i]) - shear.origin[1]) - shear.slopes[1] * z[i];
     }
     let a = x[2] * y[1] - y[2] * x[1];
     let b = x[0] * y[2] - y[0] * x[2];
     let c = x[1] * y[0] - y[1] * x[0];
     let outside = a.min(b).min(c).simd_lt(zero) & a.max(b).max(c).simd_gt(zero);
-    Candidates {
-        lanes: !(outside.to_bitmask() as u32),
-        edges: [a.into(), b.into(), c.into()],
-        depths: [z[0].into(), z[1].into(), z[2].into()],
+    Candidates { lanes: !(outside.to_bitmask() as u32), edges: [a, b, c], depths: z }
+}
+
+impl<S: Simd> Candidates<S> {
+    /// Those of `lanes` that the ray may meet with 0 < t ≤ `t_max`.
+    #[inline(always)]
+    pub(super) fn within(&self, simd: S, lanes: u32, frame: &Frame, t_max: f32) -> Crossings {
+        let splat = |x: f32| f32x8::splat(simd, x);
+        let [a, b, c] = self.edges;
+        let sum = a + b + c;
+        let smallest = a.abs().min(b.abs()).min(c.abs());
+        let certain = smallest.simd_gt(splat(SAFE.start)) & sum.abs().simd_lt(splat(SAFE.end));
+        let scale = splat(1.0) / sum;
+        let [wa, wb, wc] = [a * scale, b * scale, c * scale];
+        let t = (wa * self.depths[0] + wb * self.depths[1] + wc * self.depths[2]) * splat(frame.shear[2]);
+        let range = t.simd_gt(splat(0.0)) & t.simd_le(splat(t_max));
+        let [certain, range] = [certain, range].map(|mask| mask.to_bitmask() as u32);
+        Crossings { lanes: lanes & (range | !certain), certain, t: t.into(), u: wb.into(), v: wc.into() }
     }
 }
 
-impl Candidates {
+impl Crossings {
     /// Where the ray's line meets the triangle of a lane, or `None` if it passes beside it or lies in its plane.
     #[inline(always)]
-    pub(super) fn crossing(&self, block: &Block, lane: usize, frame: &Frame) -> Option<Crossing> {
-        let [a, b, c] = [self.edges[0][lane], self.edges[1][lane], self.edges[2][lane]];
-        let smallest = a.abs().min(b.abs()).min(c.abs());
-        let sum = a + b + c;
-        if !(smallest > SAFE.start && sum.abs() < SAFE.end) {
+    pub(super) fn at(&self, block: &Block, lane: usize, frame: &Frame) -> Option<Crossing> {
+        if self.certain >> lane & 1 == 0 {
             return exact_crossing(block, lane, frame);
         }
-        let scale = 1.0 / sum;
-        let [wa, wb, wc] = [a * scale, b * scale, c * scale];
-        let depth = wa * self.depths[0][lane] + wb * self.depths[1][lane] + wc * self.depths[2][lane];
-        Some(Crossing { t: depth * frame.shear[2], u: wb, v: wc })
+        Some(Crossing { t: self.t[lane], u: self.u[lane], v: self.v[lane] })
     }
 }
 
-/// As [`Candidates::crossing`], with edge functions in doubles: the sign of each is exact.
+/// As [`Crossings::at`], with edge functions in doubles: the sign of each is exact.
 #[cold]
 #[inline(never)]
 fn exact_crossing(block: &Block, lane: usize, frame: &Frame) -> Option<Crossing> {

@@ -29,15 +29,19 @@ pub(super) fn closest<S: Simd, F: FnMut(u32, f32, f32) -> bool>(
         if child.is_block() {
             let block = &bvh.blocks[child.index()];
             let found = block::candidates(simd, block, &shear);
-            let mut lanes = found.lanes & child.lanes();
-            while lanes != 0 {
-                let lane = lanes.trailing_zeros() as usize % block::BLOCK;
-                lanes &= lanes - 1;
-                if let Some(crossing) = found.crossing(block, lane, &frame) {
-                    let triangle = block.triangles[lane];
-                    let nearer = crossing.t < best.t || (crossing.t == best.t && triangle < best.triangle);
-                    if crossing.t > 0.0 && nearer && accept(triangle, crossing.u, crossing.v) {
-                        best = Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v };
+            let lanes = found.lanes & child.lanes();
+            if lanes != 0 {
+                let found = found.within(simd, lanes, &frame, best.t);
+                let mut lanes = found.lanes;
+                while lanes != 0 {
+                    let lane = lanes.trailing_zeros() as usize % block::BLOCK;
+                    lanes &= lanes - 1;
+                    if let Some(crossing) = found.at(block, lane, &frame) {
+                        let triangle = block.triangles[lane];
+                        let nearer = crossing.t < best.t || (crossing.t == best.t && triangle < best.triangle);
+                        if crossing.t > 0.0 && nearer && accept(triangle, crossing.u, crossing.v) {
+                            best = Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v };
+                        }
                     }
                 }
             }

@@ -41,6 +41,8 @@ pub(super) fn collapse(tree: &BinaryTree, corners: &[[[f32; 3]; 3]]) -> WideTree
     while let Some((binary, index)) = waiting.pop() {
         children.clear();
         priced.gather(binary, &mut children);
+        // The largest last: it is where the occlusion query looks first.
+        children.sort_by(|&a, &b| tree.nodes[a as usize].area.total_cmp(&tree.nodes[b as usize].area));
         let mut node = node(tree, &children);
         let mut inner = Vec::with_capacity(WIDTH);
         for (lane, &child) in children.iter().enumerate() {

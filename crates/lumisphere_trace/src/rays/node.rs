@@ -5,9 +5,10 @@ use super::block::BLOCK;
 /// Children of a node, one a lane.
 pub(super) const WIDTH: usize = 8;
 
-/// A node of the tree: boxes and references of up to eight children. Four cache lines.
+/// A node of the tree: boxes and references of up to eight children. Four cache lines, aligned to as many: so no node
+/// lies across two pages.
 #[derive(Debug, Clone)]
-#[repr(align(64))]
+#[repr(align(256))]
 pub(super) struct Node {
     /// `[axis][0: lower, 1: upper][child]`. The box of a missing child is inverted and infinite: no ray meets it.
     pub planes: [[[f32; WIDTH]; 2]; 3],

@@ -29,14 +29,18 @@ pub(super) fn occluded<S: Simd, F: FnMut(u32, f32, f32) -> bool>(
         if child.is_block() {
             let block = &bvh.blocks[child.index()];
             let found = block::candidates(simd, block, &shear);
-            let mut lanes = found.lanes & child.lanes();
-            while lanes != 0 {
-                let lane = lanes.trailing_zeros() as usize % block::BLOCK;
-                lanes &= lanes - 1;
-                if let Some(crossing) = found.crossing(block, lane, &frame) {
-                    let within = crossing.t > 0.0 && crossing.t <= t_max;
-                    if within && accept(block.triangles[lane], crossing.u, crossing.v) {
-                        return true;
+            let lanes = found.lanes & child.lanes();
+            if lanes != 0 {
+                let found = found.within(simd, lanes, &frame, t_max);
+                let mut lanes = found.lanes;
+                while lanes != 0 {
+                    let lane = lanes.trailing_zeros() as usize % block::BLOCK;
+                    lanes &= lanes - 1;
+                    if let Some(crossing) = found.at(block, lane, &frame) {
+                        let within = crossing.t > 0.0 && crossing.t <= t_max;
+                        if within && accept(block.triangles[lane], crossing.u, crossing.v) {
+                            return true;
+                        }
                     }
                 }
             }
@@ -44,11 +48,15 @@ pub(super) fn occluded<S: Simd, F: FnMut(u32, f32, f32) -> bool>(
             let node = &bvh.nodes[child.index()];
             let entered = slabs::entered(simd, node, &slabs, t_max);
             let mut lanes = entered.lanes;
-            while lanes != 0 {
-                let lane = lanes.trailing_zeros() as usize % 8;
+            if lanes != 0 {
+                child = node.children[lanes.trailing_zeros() as usize % 8];
                 lanes &= lanes - 1;
-                bvh.touch(node.children[lane]);
-                stack.push(Entry::new(0.0, node.children[lane]));
+                while lanes != 0 {
+                    stack.push(Entry::new(0.0, child));
+                    child = node.children[lanes.trailing_zeros() as usize % 8];
+                    lanes &= lanes - 1;
+                }
+                continue;
             }
         }
         match stack.pop() {

@@ -35,16 +35,20 @@ pub(super) fn spread<S: Simd>(simd: S, frame: &Frame) -> Slabs<S> {
 /// The children whose boxes the ray meets in [0, t_max].
 #[inline(always)]
 pub(super) fn entered<S: Simd>(simd: S, node: &Node, slabs: &Slabs<S>, t_max: f32) -> Entered {
-    let mut near = f32x8::splat(simd, 0.0);
-    let mut far = f32x8::splat(simd, t_max);
-    for axis in 0..3 {
+    let meet = |axis: usize| {
         let first = slabs.first_plane[axis] & 1;
         let planes = &node.planes[axis];
         let entry = f32x8::load_array_ref(simd, &planes[first]);
         let exit = f32x8::load_array_ref(simd, &planes[first ^ 1]);
-        near = entry.mul_sub(slabs.inverse[axis], slabs.near_offset[axis]).max(near);
-        far = exit.mul_sub(slabs.inverse[axis], slabs.far_offset[axis]).min(far);
-    }
+        (
+            entry.mul_sub(slabs.inverse[axis], slabs.near_offset[axis]),
+            exit.mul_sub(slabs.inverse[axis], slabs.far_offset[axis]),
+        )
+    };
+    let [x, y, z] = [meet(0), meet(1), meet(2)];
+    // In pairs: this is on the path from a node to the next.
+    let near = x.0.max(y.0).max(z.0.max(f32x8::splat(simd, 0.0)));
+    let far = x.1.min(y.1).min(z.1.min(f32x8::splat(simd, t_max)));
     let lanes = near.simd_le(far).to_bitmask() as u32;
     Entered { lanes, near: near.into() }
 }

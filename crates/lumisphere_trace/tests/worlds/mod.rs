@@ -4,6 +4,7 @@
 use lumisphere_bsdf::{AlbedoTables, Material, PerceptualRoughness};
 use lumisphere_image::Environment;
 use lumisphere_scene::{Affine, Camera, Instance, Lens, Light, LightShape, Mesh, Scene, SceneMaterial};
+use lumisphere_sphere::vector::sub;
 use lumisphere_sphere::{Grid, Projection, Rotation, Vec3};
 use lumisphere_trace::{EnvironmentFilter, EnvironmentLight, LightSampling, Render, Sequence, TraceSettings, World};
 use std::ops::ControlFlow;
@@ -51,6 +52,33 @@ pub(crate) fn sides(half: Vec3, facing: f64) -> Vec<Mesh> {
         quad(axis(i, sign), axis((i + 1) % 3, sign * facing), axis((i + 2) % 3, 1.0))
     };
     (0..3).flat_map(|i| [side(i, -1.0), side(i, 1.0)]).collect()
+}
+
+/// The unit sphere of `8 · 4^cuts` triangles, seen from inside: an octahedron, each face cut in four and its corners put on the sphere.
+pub(crate) fn ball_from_inside(cuts: u32) -> Mesh {
+    let unit = lumisphere_sphere::vector::normalize;
+    let axis = |i: usize, s: f64| -> Vec3 { std::array::from_fn(|k| if k == i { s } else { 0.0 }) };
+    let face = |i: usize| {
+        let [x, y, z] = [0, 1, 2].map(|k| axis(k, if i >> k & 1 == 0 { 1.0 } else { -1.0 }));
+        // Clockwise seen from outside.
+        if i.count_ones().is_multiple_of(2) { [x, z, y] } else { [x, y, z] }
+    };
+    let mut faces: Vec<[Vec3; 3]> = (0..8).map(face).collect();
+    for _ in 0..cuts {
+        let middle = |a: Vec3, b: Vec3| unit(lumisphere_sphere::vector::add(a, b));
+        let cut = |[a, b, c]: [Vec3; 3]| {
+            let [p, q, r] = [middle(a, b), middle(b, c), middle(c, a)];
+            [[a, p, r], [p, b, q], [r, q, c], [p, q, r]]
+        };
+        faces = faces.into_iter().flat_map(cut).collect();
+    }
+    let inwards = |[a, b, c]: &[Vec3; 3]| unit(lumisphere_sphere::vector::cross(sub(*b, *a), sub(*c, *a)));
+    Mesh {
+        positions: faces.iter().flatten().map(|p| p.map(|c| c as f32)).collect(),
+        normals: faces.iter().flat_map(|face| [inwards(face).map(|c| c as f32); 3]).collect(),
+        triangles: (0..faces.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        ..Mesh::default()
+    }
 }
 
 /// A scene of meshes of one material.
