@@ -1,7 +1,7 @@
 //! Sums over the samples of each pixel.
 
-use crate::light::luminance;
 use crate::path::{FirstHit, Found};
+use lumisphere_scene::photometry::luminance;
 
 /// What is summed for one pixel, always in the order of its samples.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

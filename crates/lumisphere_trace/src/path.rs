@@ -5,13 +5,14 @@
 //! Methods for Light Transport Simulation", 1997, chapters 8 to 10.
 
 use crate::finish::attenuation;
-use crate::light::{Density, Source, luminance, shape};
+use crate::light::{Density, Source, shape};
 use crate::rays::Ray;
 use crate::sampler::Sampler;
 use crate::settings::{LightPaths, LightSampling, TraceSettings, Visibility};
 use crate::vertex::Vertex;
 use crate::world::{Meeting, World, leaving};
 use lumisphere_bsdf::Rgb;
+use lumisphere_scene::photometry::luminance;
 use lumisphere_sphere::Vec3;
 use lumisphere_sphere::vector::try_normalize;
 

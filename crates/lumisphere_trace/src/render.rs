@@ -3,13 +3,13 @@
 use crate::TraceError;
 use crate::checkpoint;
 use crate::film::{Pixel, TracedPicture};
-use crate::light::luminance;
 use crate::path::PathTracer;
 use crate::rays::Ray;
 use crate::sampler::Sampler;
 use crate::settings::{PixelFilter, TraceSettings};
 use crate::world::World;
 use lumisphere_scene::Camera;
+use lumisphere_scene::photometry::luminance;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -149,9 +149,9 @@ impl<'w> Render<'w> {
             return f64::INFINITY;
         }
         let count = self.pixels.len() as f64;
-        let variance = self.pixels.iter().map(|p| p.luminance_variance(self.samples)).sum::<f64>() / count;
+        let error = self.pixels.iter().map(|p| p.luminance_variance(self.samples).sqrt()).sum::<f64>() / count;
         let mean = self.pixels.iter().map(|p| luminance(p.radiance)).sum::<f64>() / count / f64::from(self.samples);
-        if variance > 0.0 { variance.sqrt() / mean } else { 0.0 }
+        if error > 0.0 { error / mean } else { 0.0 }
     }
 
     /// The picture as it is.

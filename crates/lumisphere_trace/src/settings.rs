@@ -57,7 +57,8 @@ pub struct Target {
     pub samples: u32,
     /// Seconds, looked at between passes over the whole picture.
     pub seconds: Option<f64>,
-    /// Noise: the standard error of a pixel's luminance, as root mean square over the pixels, over the mean luminance of the picture.
+    /// Noise: the standard error of a pixel's luminance, as mean over the pixels, over the mean luminance of the picture. (A mean of
+    /// squares would be that of a few bright glints.)
     /// Looked at between passes, from 16 samples on.
     pub error: Option<f64>,
 }

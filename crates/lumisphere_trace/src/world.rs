@@ -3,10 +3,11 @@
 use crate::TraceError;
 use crate::finish::{Finish, Model, Scatter, varies};
 use crate::geometry::{Geometry, Part};
-use crate::light::{Arriving, Density, EnvironmentLight, LightTable, Source, luminance, shape};
+use crate::light::{Arriving, Density, EnvironmentLight, LightTable, Source, shape};
 use crate::rays::{Ray, offset_origin};
 use crate::vertex::{Place, Vertex};
 use lumisphere_bsdf::{AlbedoTables, Bsdf, Rgb};
+use lumisphere_scene::photometry::luminance;
 use lumisphere_scene::{Light, Scene, SurfacePoint};
 use lumisphere_sphere::Vec3;
 use lumisphere_sphere::vector::{cross, dot, length, scale, sub, try_normalize};

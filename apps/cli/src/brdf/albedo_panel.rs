@@ -2,11 +2,12 @@
 
 use super::entry::Entry;
 use super::sheet::{Area, Sheet, rgb, style, text_style, units};
-use super::slice::{direction, luminance};
+use super::slice::direction;
 use super::style::{CHANNELS, FAINT, GRID, INK, Stroke};
 use anyhow::Result;
 use lumisphere::bsdf::Rgb;
 use lumisphere::bsdf::albedo::directional_albedo;
+use lumisphere::scene::photometry::luminance;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 

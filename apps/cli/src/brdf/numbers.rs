@@ -3,11 +3,12 @@
 use super::entry::Entry;
 use super::scale::short;
 use super::sheet::wrapped;
-use super::slice::{Slice, direction, luminance};
+use super::slice::{Slice, direction};
 use crate::output::{HEADING, figure};
 use lumisphere::bsdf::Rgb;
 use lumisphere::bsdf::albedo::{Albedo, average_albedo, directional_albedo};
 use lumisphere::bsdf::model::{Energy, Range, Reciprocity, Sides};
+use lumisphere::scene::photometry::luminance;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;

@@ -1,7 +1,8 @@
 //! f |cos θ| in the plane of incidence, as a curve.
 
 use super::scale::Scale;
-use lumisphere::bsdf::{Bsdf, Rgb};
+use lumisphere::bsdf::Bsdf;
+use lumisphere::scene::photometry::luminance;
 use lumisphere::sphere::Vec3;
 use lumisphere::sphere::sequence::OwenSobol;
 
@@ -140,11 +141,6 @@ pub(crate) fn direction(angle: Angle) -> Vec3 {
     let (sin, cos) = angle.to_radians().sin_cos();
     // Exactly along the surface nothing is defined to be above it.
     [sin, 0.0, if angle.abs() == 90.0 { 0.0 } else { cos }]
-}
-
-/// Rec.709.
-pub(crate) fn luminance(c: Rgb) -> f64 {
-    0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]
 }
 
 fn median(angles: impl Iterator<Item = Angle>) -> Option<Angle> {

@@ -7,6 +7,7 @@
 use super::environment::EnvironmentFilter;
 use lumisphere_bsdf::Rgb;
 use lumisphere_image::Environment;
+use lumisphere_scene::photometry::luminance;
 use lumisphere_sphere::Vec3;
 use std::f64::consts::{PI, TAU};
 
@@ -167,7 +168,7 @@ impl Knots {
         let left = place.column;
         let right = if left + self.bilinear() == self.columns() { 0 } else { left + self.bilinear() };
         let (above, below) = (mixed(top[left], top[right], place.s), mixed(bottom[left], bottom[right], place.s));
-        let (light, lower) = (super::luminance(above), super::luminance(below));
+        let (light, lower) = (luminance(above), luminance(below));
         let radiance = std::array::from_fn(|c| above[c] + (below[c] - above[c]) * place.v);
         (radiance, light + (lower - light) * place.t)
     }

@@ -8,4 +8,4 @@ mod table;
 
 pub use environment::{EnvironmentFilter, EnvironmentLight, EnvironmentSample};
 pub(crate) use shape::{Arriving, Density};
-pub(crate) use table::{LightTable, Source, luminance};
+pub(crate) use table::{LightTable, Source};

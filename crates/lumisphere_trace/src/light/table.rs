@@ -1,8 +1,8 @@
 //! All lights of a world, and the choice of one of them.
 
 use super::distribution::Distribution;
-use lumisphere_bsdf::Rgb;
 use lumisphere_scene::LightShape;
+use lumisphere_scene::photometry::luminance;
 use std::f64::consts::PI;
 
 /// Which light.
@@ -78,11 +78,6 @@ impl LightTable {
         };
         self.choice.probability(index)
     }
-}
-
-/// Rec.709 luminance.
-pub(crate) fn luminance(color: Rgb) -> f64 {
-    0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]
 }
 
 /// Luminous flux.

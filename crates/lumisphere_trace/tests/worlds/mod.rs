@@ -154,4 +154,10 @@ impl Estimate {
         let limit = errors * error + accuracy * expected;
         assert!((mean - expected).abs() < limit, "{what}: {mean} ± {error}, expected {expected}");
     }
+
+    /// Asserts that the green channel is `expected` to this relative accuracy, whatever the noise.
+    pub(crate) fn expect_within(&self, expected: f64, accuracy: f64, what: &str) {
+        let mean = self.mean[1];
+        assert!((mean / expected - 1.0).abs() < accuracy, "{what}: {mean}, expected {expected}");
+    }
 }
