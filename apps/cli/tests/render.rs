@@ -303,3 +303,12 @@ fn every_model_has_a_picture() {
         assert!(lit > 24 * 16 / 8, "{name}: {lit} lit pixels");
     }
 }
+
+#[test]
+fn what_does_not_fit_into_memory_is_one_line() {
+    let folder = tempdir().unwrap();
+    let large = ["render", "builtin:sphere", "--reference", "--size", "65536x65536"];
+    assert!(fail(folder.path(), &large).contains("--max-memory"));
+    let small = ["render", "builtin:teapots", "--reference", "--size", "8x8", "--max-memory", "1MiB"];
+    assert!(fail(folder.path(), &small).contains("builtin:teapots takes about"));
+}

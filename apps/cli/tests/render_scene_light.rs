@@ -69,10 +69,10 @@ fn the_bright_face_lights_its_side_and_turns_with_the_light() {
         (0, "", &[], 1),
         (2, "", &[], 2),
         (3, "", &[], 3),
-        // Half a turn about +Y, and a quarter about +Z, which takes +X to +Y.
+        // Half a turn about +Y, and a quarter about +Z, which takes +X to -Y: the loader turns in left-handed axes.
         (1, r#","rotation":[0,1,0,0]"#, &[], 1),
-        (1, r#","rotation":[0,0,0.70710678,0.70710678]"#, &[], 2),
-        (1, r#","rotation":[0,0,0.70710678,0.70710678]"#, &["--turn-env", "180"], 2),
+        (1, r#","rotation":[0,0,0.70710678,0.70710678]"#, &[], 3),
+        (1, r#","rotation":[0,0,0.70710678,0.70710678]"#, &["--turn-env", "180"], 3),
     ];
     for (face, rotation, more, lit) in cases {
         write(folder.path(), face, rotation);

@@ -32,7 +32,7 @@ pub use environment::{CubeChain, Environment, Rgb};
 pub use error::ImageError;
 pub use face_names::{FaceName, FaceNaming, face_of_name};
 pub use faces::{cube_from_faces, faces_of};
-pub use luminance::luminance;
+pub use luminance::{REC709, luminance};
 pub use picture::Picture;
 pub use resample::resample;
 pub use sample::{sample_bilinear, sample_chain, sample_cube, sample_lat_long, sample_nearest};

@@ -3,7 +3,7 @@
 use crate::environment::Rgb;
 
 /// Rec.709 weights of red, green and blue (CONVENTIONS.md, Light).
-pub(crate) const REC709: [f64; 3] = [0.2126, 0.7152, 0.0722];
+pub const REC709: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// Luminance of a linear Rec.709 colour, in the unit of its channels; computed in f64.
 #[inline]

@@ -4,6 +4,7 @@
 //! photometric value: a scene in these units is lit by environments in nits.
 
 use lumisphere_bsdf::Rgb;
+use lumisphere_image::REC709;
 use std::f64::consts::PI;
 
 /// Luminous flux Φ in lumen of a point that shines alike in all directions with intensity I in candela: Φ = 4π I.
@@ -43,7 +44,7 @@ pub fn sphere_area(radius: f64) -> f64 {
 
 /// Luminance of a colour, Rec.709.
 pub fn luminance(color: Rgb) -> f64 {
-    0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]
+    (0..3).map(|c| REC709[c] * color[c]).sum()
 }
 
 /// The colour scaled to this luminance; grey for a colour without any.

@@ -81,7 +81,17 @@ impl Scene {
 
     /// Triangles of all instances.
     pub fn triangle_count(&self) -> usize {
-        self.instances.iter().filter_map(|i| self.meshes.get(i.mesh)).map(|m| m.triangles.len()).sum()
+        self.sum(|mesh| mesh.triangles.len())
+    }
+
+    /// Vertices of all instances.
+    pub fn vertex_count(&self) -> usize {
+        self.sum(|mesh| mesh.positions.len())
+    }
+
+    fn sum(&self, of: fn(&Mesh) -> usize) -> usize {
+        let meshes = self.instances.iter().filter_map(|instance| self.meshes.get(instance.mesh));
+        meshes.fold(0, |sum, mesh| sum.saturating_add(of(mesh)))
     }
 
     /// The first camera of the scene, or one that frames it, for a picture of width over height `aspect`.

@@ -217,8 +217,8 @@ fn materials_lights_and_cameras_are_as_written() {
     assert_eq!((scene.cameras[1].lens, scene.cameras[1].aspect), (Lens::Orthographic { height: 4.0 }, Some(1.5)));
     let environment = scene.environment.unwrap();
     assert_eq!((environment.intensity, environment.irradiance_coefficients[0]), (2.0, [1.0, 2.0, 3.0]));
-    // A quarter turn about +Y takes +Z to +X.
-    assert!(near(environment.rotation.apply([0.0, 0.0, 1.0]), [1.0, 0.0, 0.0]));
+    // A quarter turn about +Y takes -Z to +X: the loader turns in left-handed axes.
+    assert!(near(environment.rotation.apply([0.0, 0.0, -1.0]), [1.0, 0.0, 0.0]));
     assert_eq!(scene.notes.len(), 1, "the range of a light: {:?}", scene.notes);
 }
 

@@ -64,6 +64,8 @@ pub(crate) fn digest(world: &World, camera: &Camera, size: [usize; 2], settings:
     digest.add(&(camera, size, TraceSettings { target: any, ..*settings }));
     digest.add(&(&scene.instances, &scene.materials, &scene.lights));
     for mesh in &scene.meshes {
+        let lengths = [&mesh.uv[0], &mesh.uv[1]].map(Vec::len);
+        digest.add(&(mesh.positions.len(), lengths, mesh.tangents.len(), mesh.colors.len()));
         let numbers = mesh.positions.iter().chain(&mesh.normals).flatten().chain(mesh.uv.iter().flatten().flatten());
         let numbers = numbers.chain(mesh.tangents.iter().flatten()).chain(mesh.colors.iter().flatten());
         digest = digest.with_words(numbers.map(|x| u64::from(x.to_bits())));
@@ -82,7 +84,7 @@ pub(crate) fn digest(world: &World, camera: &Camera, size: [usize; 2], settings:
     digest.0
 }
 
-/// FNV-1a (G. Fowler, L. C. Noll and K.-P. Vo), by bytes or by words.
+/// As FNV-1a (G. Fowler, L. C. Noll and K.-P. Vo), by bytes or by words, with a turn so that the upper bits of words reach the lower.
 struct Digest(u64);
 
 impl Digest {

@@ -1,11 +1,14 @@
 //! All triangles of a scene in the world, and what rays meet among them.
 
 use crate::TraceError;
-use crate::rays::{Hit, Ray, TriangleBvh, hit_point};
+use crate::rays::{Hit, Ray, TRIANGLE_LIMIT, TriangleBvh, hit_point};
 use crate::sampler::stray_number;
 use lumisphere_scene::{Instance, Mesh, Scene, SceneMaterial, SurfacePoint};
 use lumisphere_sphere::Vec3;
 use lumisphere_sphere::vector::{cross, dot, scale, sub, try_normalize};
+
+/// Vertices of all instances: an index has 32 bits.
+const VERTEX_LIMIT: usize = u32::MAX as usize;
 
 /// The instances of a scene as one list of triangles in world space.
 #[derive(Debug)]
@@ -39,6 +42,7 @@ pub(crate) struct Part<'s> {
 
 impl<'s> Geometry<'s> {
     pub(crate) fn new(scene: &'s Scene) -> Result<Self, TraceError> {
+        check_counts(scene)?;
         let mut parts = Vec::with_capacity(scene.instances.len());
         let (mut positions, mut triangles, mut part_of) = (Vec::new(), Vec::new(), Vec::new());
         for (index, instance) in scene.instances.iter().enumerate() {
@@ -166,10 +170,27 @@ fn area_vector(corners: [[f32; 3]; 3], orientation: f64) -> Vec3 {
     scale(cross(sub(b, a), sub(c, a)), orientation)
 }
 
-/// The lists of a mesh are as long as its positions, or may be empty.
+/// Triangles and vertices of all instances together, before any of them is copied.
+fn check_counts(scene: &Scene) -> Result<(), TraceError> {
+    let (triangles, vertices) = (scene.triangle_count(), scene.vertex_count());
+    if triangles > TRIANGLE_LIMIT {
+        return Err(TraceError::TooManyTriangles { found: triangles, limit: TRIANGLE_LIMIT });
+    }
+    if vertices > VERTEX_LIMIT {
+        let (what, expected) = ("the number of vertices".to_owned(), format!("at most {VERTEX_LIMIT}"));
+        return Err(TraceError::Scene { what, found: vertices, expected });
+    }
+    Ok(())
+}
+
+/// The lists of a mesh are as long as its positions, or may be empty, and its triangles name its own vertices.
 fn expect_vertex_data(mesh: &Mesh, instance: usize) -> Result<(), TraceError> {
     let count = mesh.positions.len();
     let optional = [mesh.tangents.len(), mesh.uv[0].len(), mesh.uv[1].len(), mesh.colors.len()];
+    if let Some(found) = mesh.triangles.iter().flatten().find(|&&i| i as usize >= count) {
+        let what = format!("a vertex of a triangle of the mesh of instance {instance}");
+        return Err(TraceError::Scene { what, found: *found as usize, expected: format!("below {count}") });
+    }
     let bad = optional.into_iter().filter(|&n| n != 0).chain([mesh.normals.len()]).find(|&n| n != count);
     bad.map_or(Ok(()), |found| {
         Err(TraceError::Scene {

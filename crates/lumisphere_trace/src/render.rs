@@ -82,6 +82,11 @@ impl<'w> Render<'w> {
         Ok(Self { tracer, camera: camera.clone(), size, pixels, samples: 0 })
     }
 
+    /// Bytes that a picture of this size takes while it is traced.
+    pub fn memory([width, height]: [usize; 2]) -> usize {
+        width.saturating_mul(height).saturating_mul(size_of::<Pixel>())
+    }
+
     /// The picture of a checkpoint of the same world, camera, size and settings; the target may be another.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use crate::TraceError;
 use crate::finish::{Finish, Model, Scatter, varies};
-use crate::geometry::{Geometry, Part};
+use crate::geometry::Geometry;
 use crate::light::{Arriving, Density, EnvironmentLight, LightTable, Source, shape};
 use crate::rays::{Ray, offset_origin};
 use crate::vertex::{Place, Vertex};
@@ -63,10 +63,13 @@ impl<'a> World<'a> {
         tables: &'a AlbedoTables,
     ) -> Result<Self, TraceError> {
         let geometry = Geometry::new(scene)?;
+        let mut painted = vec![false; scene.materials.len()];
+        for part in geometry.parts() {
+            painted[part.instance.material] |= !part.mesh.colors.is_empty();
+        }
         let finish = |index: usize| {
             let material = &scene.materials[index];
-            let painted = |part: &Part| part.instance.material == index && !part.mesh.colors.is_empty();
-            let constant = !varies(material) && !geometry.parts().iter().any(painted);
+            let constant = !varies(material) && !painted[index];
             constant.then(|| Finish::new(&material.factors, material.volume.as_ref(), tables))
         };
         let finishes = (0..scene.materials.len()).map(finish).collect();

@@ -19,7 +19,7 @@ use anyhow::{Result, bail};
 use args::{EffortArgs, LightPathsChoice};
 use lumisphere::bsdf::AlbedoTables;
 use lumisphere::scene::{Camera, Movement, Scene};
-use lumisphere::trace::{TraceSettings, Visibility, World};
+use lumisphere::trace::{Render, TraceSettings, Visibility, World};
 use lumisphere_codec::Limits;
 use picture_file::{PictureFile, Shown};
 use size::Size;
@@ -28,6 +28,9 @@ use std::process::ExitCode;
 use surroundings::Surroundings;
 use tracing::{Task, Traced, trace};
 use view::{View, turned, turntable};
+
+/// About what a triangle or a vertex of an instance takes while the tree is built.
+const BYTES_EACH: usize = 128;
 
 /// Renders as the arguments say; the exit code tells a picture that is there in part, because of an interrupt.
 pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode> {
@@ -40,6 +43,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode> {
     let file = PictureFile::new(&path)?;
     let scene = source.load(args.common.max_memory)?;
     let (camera, size) = view(args, &scene)?;
+    check_memory(args, &scene, size)?;
     let limits = Limits { max_bytes: args.common.max_memory };
     let surroundings = Surroundings::new(&args.light, &scene, limits)?;
     if surroundings.light.is_none() && args.light.light_paths == LightPathsChoice::Environment {
@@ -63,6 +67,24 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode> {
         return Ok(ExitCode::from(INTERRUPTED));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses pictures and scenes that are larger than `--max-memory` before anything of that size is made. A small file may place one
+/// mesh very often.
+fn check_memory(args: &RenderArgs, scene: &Scene, size: Size) -> Result<()> {
+    let limit = usize::try_from(args.common.max_memory).unwrap_or(usize::MAX);
+    let elements = scene.triangle_count().saturating_add(scene.vertex_count());
+    let scene_bytes = elements.saturating_mul(BYTES_EACH);
+    let picture = Render::memory([size.width, size.height]);
+    for (what, bytes) in
+        [(format!("a picture of {}x{}", size.width, size.height), picture), (args.scene.clone(), scene_bytes)]
+    {
+        if bytes > limit {
+            let [bytes, limit] = [bytes, limit].map(output::size_text);
+            bail!("{what} takes about {bytes}, more than the {limit} of --max-memory");
+        }
+    }
+    Ok(())
 }
 
 /// With a checkpoint an interrupt ends the run after the pass, and nothing is lost.

@@ -1,19 +1,20 @@
 //! Shading with baked light against the truth, one approximation at a time.
 
-use super::spheres::{Point, points};
+use super::spheres::{POINTS, Point, points};
 use super::table::Table;
 use super::truth::{Truth, truth};
 use anyhow::Result;
-use lumisphere::bake::shading::{AmbientDiffuse, BakedLight, ShadingChoices, shade, shade_diffuse};
+use lumisphere::bake::shading::{AmbientDiffuse, BakedLight, ShadingChoices, shade, shade_diffuse, specular_share};
 use lumisphere::bake::{BakeSettings, BakedEnvironment, ChainSettings, Outputs, RoughnessCurve, bake};
+use lumisphere::bsdf::albedo::directional_albedo;
 use lumisphere::bsdf::material::Surface;
-use lumisphere::bsdf::{AlbedoTables, Material, PerceptualRoughness, Rgb};
+use lumisphere::bsdf::{AlbedoTables, DfgTerms, Material, PerceptualRoughness, Rgb};
 use lumisphere::image::Environment;
 use lumisphere::scene::photometry::luminance;
-use lumisphere::sphere::{Rotation, vector::dot};
+use lumisphere::sphere::vector::dot;
+use lumisphere::sphere::{Frame, Rotation, Vec3};
 use lumisphere::trace::{EnvironmentFilter, EnvironmentLight};
 use rayon::prelude::*;
-use std::array::from_fn;
 use std::ops::Range;
 
 /// Perceptual roughness of the spheres: on the levels of the chain and between them.
@@ -31,7 +32,7 @@ pub(super) enum Exact {
     Nothing,
     /// Irradiance by all bands.
     Irradiance,
-    /// The specular lobe as the view has it, instead of v = n = r.
+    /// The mean of light over the specular lobe as the view has it, instead of what the chain holds for v = n = r.
     Lobe,
     /// A level baked for this roughness.
     Level,
@@ -107,6 +108,8 @@ pub(super) struct Stage {
     points: Vec<Point>,
     /// Of each roughness: dielectric, metal, and the specular lobe of the dielectric alone.
     truths: Vec<[Vec<Truth>; 3]>,
+    /// Of each roughness: what metal and the dielectric's lobe send of a uniform light of 1, at the points of one viewer.
+    albedos: Vec<[Vec<f64>; 2]>,
     baked: BakedEnvironment,
     halved: BakedEnvironment,
     table: Table,
@@ -123,7 +126,7 @@ impl Stage {
         let table = Table::compute()?;
         let light = EnvironmentLight::new(lat_long(environment)?, EnvironmentFilter::Patches, Rotation::IDENTITY)?;
         let (tables, points) = (AlbedoTables::compute(), points());
-        let mut truths = Vec::new();
+        let (mut truths, mut albedos) = (Vec::new(), Vec::new());
         for (level, p) in ROUGHNESSES.into_iter().enumerate() {
             told(&format!("trace p = {p}"));
             let of = |material: Material, seed: u32| -> Vec<Truth> {
@@ -135,8 +138,13 @@ impl Stage {
             let dielectric = of_metallic(0.0);
             let black = Material { base_color: [0.0; 3], ..dielectric };
             truths.push([of(dielectric, 0), of(of_metallic(1.0), 10_000), of(black, 20_000)]);
+            albedos.push([of_metallic(1.0), black].map(|material| {
+                let surface = material.surface(&tables);
+                let albedo = |point: &Point| luminance(directional_albedo(&surface, local_view(point)).reflected);
+                points[..POINTS].par_iter().map(albedo).collect()
+            }));
         }
-        Ok(Self { points, truths, baked, halved, table, light, tables })
+        Ok(Self { points, truths, albedos, baked, halved, table, light, tables })
     }
 
     /// The light as it is baked by default; whole floats where texels are what is exact.
@@ -166,11 +174,10 @@ impl Stage {
         seen: Range<f64>,
     ) -> Result<SphereError> {
         let shaded = self.shaded(rendering, sphere, choices, exact)?;
-        let truths = self.mixed_truth(sphere);
         let at = |i: &usize| seen.contains(&dot(self.points[*i].normal, self.points[*i].view));
         let indices: Vec<usize> = (0..self.points.len()).filter(at).collect();
-        let pick = |i: &usize| (shaded[*i], truths[*i]);
-        Ok(compared(&indices.iter().map(pick).collect::<Vec<_>>()))
+        let pick = |i: &usize| self.compared(sphere, *i, &shaded[*i]);
+        Ok(SphereError::of(&indices.iter().map(pick).collect::<Vec<_>>()))
     }
 
     /// What a renderer shows at these points.
@@ -193,14 +200,14 @@ impl Stage {
         sphere.material().surface(&self.tables)
     }
 
-    /// Luminance at every point.
+    /// What is shown at every point.
     fn shaded(
         &self,
         rendering: &Rendering<'_>,
         sphere: Sphere,
         choices: &ShadingChoices,
         exact: Exact,
-    ) -> Result<Vec<f64>> {
+    ) -> Result<Vec<Shown>> {
         let (p, material) = (sphere.perceptual_roughness(), sphere.material());
         let light = match exact {
             Exact::Level if sphere.level > 0 => {
@@ -218,29 +225,68 @@ impl Stage {
             let terms = self.table.terms(dot(point.normal, point.view), p, exact);
             if exact == Exact::Lobe {
                 let diffuse = luminance(shade_diffuse(&material, at, &light, terms, &choices));
-                diffuse + self.specular_truth(sphere, i)
+                self.with_lobe(sphere, i, diffuse, terms, &choices)
             } else {
-                luminance(shade(&material, at, &light, terms, &choices))
+                Shown { luminance: luminance(shade(&material, at, &light, terms, &choices)), of_truth: [0.0; 2] }
             }
         };
         Ok(self.points.iter().enumerate().map(found).collect())
     }
 
-    fn specular_truth(&self, Sphere { level, metallic }: Sphere, point: usize) -> f64 {
-        let [_, metal, specular] = &self.truths[level];
-        metallic * metal[point].luminance + (1.0 - metallic) * specular[point].luminance
+    /// The baked share of the light that the view's own lobe gathers: the truth over what it makes of a uniform light.
+    fn with_lobe(&self, sphere: Sphere, i: usize, diffuse: f64, terms: DfgTerms, choices: &ShadingChoices) -> Shown {
+        let [_, metal, lobe] = &self.truths[sphere.level];
+        let [metal_albedo, lobe_albedo] = &self.albedos[sphere.level];
+        let share = |metallic: f64| {
+            let material = Sphere { metallic, ..sphere }.material();
+            luminance(specular_share(&material, terms, choices.compensation))
+        };
+        let of_metal = sphere.metallic * share(1.0) / metal_albedo[i % POINTS];
+        let of_lobe = (1.0 - sphere.metallic) * share(0.0) / lobe_albedo[i % POINTS];
+        let luminance = diffuse + of_metal * metal[i].luminance + of_lobe * lobe[i].luminance;
+        Shown { luminance, of_truth: [of_metal, of_lobe] }
     }
 
-    fn mixed_truth(&self, Sphere { level, metallic }: Sphere) -> Vec<Truth> {
-        let [dielectric, metal, _] = &self.truths[level];
-        let (m, d) = (metallic, 1.0 - metallic);
-        let mix = |(a, b): (&Truth, &Truth)| Truth {
-            radiance: from_fn(|c| d * a.radiance[c] + m * b.radiance[c]),
-            luminance: d * a.luminance + m * b.luminance,
-            variance: d * d * a.variance + m * m * b.variance,
-        };
-        dielectric.iter().zip(metal).map(mix).collect()
+    /// Against the truth, whose noise cancels where both have it.
+    fn compared(&self, Sphere { level, metallic: m }: Sphere, i: usize, shown: &Shown) -> Compared {
+        let [dielectric, metal, lobe] = self.truths[level].each_ref().map(|truths| truths[i]);
+        let truth = (1.0 - m) * dielectric.luminance + m * metal.luminance;
+        let [of_metal, of_lobe] = shown.of_truth;
+        let noise = (1.0 - m).powi(2) * dielectric.variance
+            + (of_metal - m).powi(2) * metal.variance
+            + of_lobe.powi(2) * lobe.variance;
+        Compared { difference: shown.luminance - truth, noise, truth }
     }
+}
+
+/// Luminance at a point, and how much of it is the truth of metal and of the dielectric's lobe.
+#[derive(Debug, Clone, Copy)]
+struct Shown {
+    luminance: f64,
+    of_truth: [f64; 2],
+}
+
+/// A point's error.
+#[derive(Debug, Clone, Copy)]
+struct Compared {
+    difference: f64,
+    /// Variance of the difference.
+    noise: f64,
+    truth: f64,
+}
+
+impl SphereError {
+    fn of(points: &[Compared]) -> Self {
+        let sum = |of: fn(&Compared) -> f64| points.iter().map(of).sum::<f64>();
+        let squares = sum(|c| c.difference * c.difference - c.noise).max(0.0);
+        let rms = (squares / sum(|c| c.truth * c.truth).max(f64::MIN_POSITIVE)).sqrt();
+        Self { rms, bias: sum(|c| c.difference) / sum(|c| c.truth).max(f64::MIN_POSITIVE) }
+    }
+}
+
+/// The direction to the viewer about the normal of a point.
+fn local_view(point: &Point) -> Vec3 {
+    Frame::from_normal(point.normal).local_from_world(point.view)
 }
 
 /// The default chain, and with it one of two levels for each roughness, all from one transform.
@@ -275,15 +321,7 @@ pub(super) fn half(value: f32) -> f32 {
     half::f16::from_f32(value.min(65504.0)).to_f32()
 }
 
-fn compared(pairs: &[(f64, Truth)]) -> SphereError {
-    let squares: f64 = pairs.iter().map(|(a, b)| (a - b.luminance).powi(2) - b.variance).sum();
-    let sum = |g: fn(&Truth) -> f64| pairs.iter().map(|(_, t)| g(t)).sum::<f64>().max(f64::MIN_POSITIVE);
-    let bias: f64 = pairs.iter().map(|(a, b)| a - b.luminance).sum();
-    let rms = (squares.max(0.0) / sum(|t| t.luminance * t.luminance)).sqrt();
-    SphereError { rms, bias: bias / sum(|t| t.luminance) }
-}
-
-pub(super) fn lat_long(environment: &Environment) -> Result<Environment> {
+fn lat_long(environment: &Environment) -> Result<Environment> {
     use lumisphere::image::resample;
     use lumisphere::sphere::{Grid, Projection};
     if environment.projection() == Projection::LatLong {

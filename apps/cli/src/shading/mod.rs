@@ -16,7 +16,7 @@ use crate::output;
 use crate::progress::{Show, bar};
 use crate::timings::Timings;
 use crate::values::{LowerHemisphere, Repair};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use lumisphere_codec::Limits;
 use measure::{ROUGHNESSES, Stage};
 use report::Report;
@@ -28,6 +28,10 @@ const PICTURE_SHARE: u32 = 4;
 pub(crate) fn run(args: &VerifyArgs) -> Result<()> {
     if let Some(path) = &args.output {
         expect_png(path)?;
+    }
+    let given = &args.foreign;
+    if given.target.is_some() || given.curve.is_some() || given.turn.is_some() || given.holds.is_some() {
+        bail!("--target, --curve, --turn and --holds are for a file; --shading bakes ENV itself");
     }
     let timings = Timings::start();
     let source = one_source(&args.environment)?;

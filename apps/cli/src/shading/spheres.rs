@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 /// Viewers, all around the sphere, and points that each of them sees, even over the disc that a sphere is seen as.
 const VIEWS: u64 = 8;
-const POINTS: u64 = 32;
+pub(super) const POINTS: usize = 32;
 
 /// A point of a sphere: its normal, and the direction to who looks at it.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +19,7 @@ pub(super) struct Point {
 /// Every point.
 pub(super) fn points() -> Vec<Point> {
     let views = (0..VIEWS).map(|i| UniformSphere.sample(sequence::r2(i)));
-    views.flat_map(|view| (0..POINTS).map(move |k| point(view, k))).collect()
+    views.flat_map(|view| (0..POINTS as u64).map(move |k| point(view, k))).collect()
 }
 
 fn point(view: Vec3, index: u64) -> Point {

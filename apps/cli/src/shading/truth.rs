@@ -110,7 +110,7 @@ mod tests {
             // Seen from elsewhere it is another value, so the comparison can fail.
             let other = Point { view: normalize([-0.95, 0.15, 0.3]), ..point };
             let elsewhere = truth(&material.surface(&tables), &sky(), other, 8192, 1).luminance;
-            assert!(p == 0.5 || (elsewhere - shown).abs() > 2.0 * Z * error, "{p} {metallic}: {elsewhere} {shown}");
+            assert!((elsewhere - shown).abs() > 2.0 * Z * error, "{p} {metallic}: {elsewhere} {shown}");
         }
     }
 }

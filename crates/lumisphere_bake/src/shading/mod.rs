@@ -6,4 +6,4 @@ mod choices;
 mod shade;
 
 pub use choices::{AmbientDiffuse, AmbientFresnel, DominantDirection, ShadingChoices};
-pub use shade::{BakedLight, shade, shade_diffuse, shade_specular};
+pub use shade::{BakedLight, shade, shade_diffuse, shade_specular, specular_share};

@@ -84,7 +84,7 @@ pub fn shade_specular(
     let n_dot_v = dot(normal, view).clamp(0.0, 1.0);
     let mirror = sub(scale(normal, 2.0 * dot(normal, view)), view);
     let prefiltered = light.prefiltered(choices.direction.of(normal, mirror, p, n_dot_v), p);
-    let share = specular_albedo(material, albedo, choices.compensation);
+    let share = specular_share(material, albedo, choices.compensation);
     from_fn(|i| share[i] * prefiltered[i])
 }
 
@@ -101,8 +101,9 @@ pub fn shade_diffuse(
     from_fn(|i| share[i] * form_factor[i])
 }
 
-/// The share of prefiltered radiance that reaches the viewer: metal and dielectric mixed, each with its compensation.
-fn specular_albedo(material: &Material, albedo: DfgTerms, compensation: Compensation) -> Rgb {
+/// The share of prefiltered radiance that reaches the viewer: metal and dielectric mixed, each with its compensation. `albedo` as for
+/// [`shade`].
+pub fn specular_share(material: &Material, albedo: DfgTerms, compensation: Compensation) -> Rgb {
     let f0 = material.dielectric_f0();
     from_fn(|i| {
         let metal = compensated([material.base_color[i], 1.0], albedo, compensation);

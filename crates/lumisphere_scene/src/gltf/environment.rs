@@ -176,8 +176,9 @@ fn polynomials([x, y, z]: Vec3) -> [f64; 9] {
     ]
 }
 
-/// Of a quaternion (x, y, z, w); a null one is none.
+/// Of a quaternion (x, y, z, w) as the loader turns by it, in its left-handed axes; a null one is none.
 fn rotation([x, y, z, w]: [f64; 4]) -> Rotation {
+    let [y, z] = [-y, -z];
     let sine = (x * x + y * y + z * z).sqrt();
     if sine > 0.0 { Rotation::from_axis_angle([x, y, z], 2.0 * sine.atan2(w)) } else { Rotation::IDENTITY }
 }

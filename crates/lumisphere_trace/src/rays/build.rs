@@ -11,7 +11,7 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 /// Largest magnitude of a coordinate: differences, and quotients with components of a unit direction, stay finite.
 const COORDINATE_LIMIT: f32 = 1e30;
 /// What a reference within the tree can name, with room for blocks that are not full.
-const TRIANGLE_LIMIT: usize = 1 << 28;
+pub(crate) const TRIANGLE_LIMIT: usize = 1 << 28;
 /// Passes of PLOC that pair neighbours only.
 const NEIGHBOUR_PASSES: usize = 2;
 /// Share of the nodes that reinsertion considers.

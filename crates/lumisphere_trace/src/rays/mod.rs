@@ -23,6 +23,7 @@ mod stack;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use build::TRIANGLE_LIMIT;
 pub use bvh::TriangleBvh;
 pub use offset::{hit_point, offset_origin};
 pub use ray::{Hit, Ray};

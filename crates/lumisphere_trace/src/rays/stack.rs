@@ -2,8 +2,8 @@
 
 use super::node::Child;
 
-/// Entries held without allocation; trees of millions of triangles stay below.
-const INLINE: usize = 32;
+/// Entries held without allocation; deeper trees take some.
+pub(super) const INLINE: usize = 32;
 
 /// Distance at which a ray enters a subtree, and the subtree: one integer that sorts by distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -3,7 +3,7 @@
 
 use super::block::BLOCK;
 use super::node::Child;
-use super::stack::{Entry, Stack};
+use super::stack::{Entry, INLINE, Stack};
 use super::{Ray, TriangleBvh};
 use fearless_simd::{Level, Simd};
 
@@ -53,7 +53,7 @@ fn every_instruction_set_gives_the_same_bits() {
 
 #[test]
 fn a_stack_returns_what_it_was_given_however_deep() {
-    for count in [0, 1, 63, 64, 65, 500] {
+    for count in [0, 1, INLINE - 1, INLINE, INLINE + 1, 500] {
         let mut stack = Stack::new();
         (0..count).for_each(|i| stack.push(Entry::new(i as f32, Child::node(i))));
         for i in (0..count).rev() {
