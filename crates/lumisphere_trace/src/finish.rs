@@ -1,9 +1,9 @@
 //! A material made ready at a point: what scatters, what is emitted, what is absorbed inside.
 
-use lumisphere_bsdf::material::Surface;
+use lumisphere_bsdf::material::{BentCoat, Surface};
 use lumisphere_bsdf::{AlbedoTables, Bsdf, BsdfSample, FacetShape, Facets, Material, Rgb, RoughDielectric};
 use lumisphere_scene::{SceneMaterial, Volume};
-use lumisphere_sphere::Vec3;
+use lumisphere_sphere::{Frame, Vec3};
 use std::fmt;
 use std::sync::Arc;
 
@@ -110,35 +110,102 @@ impl Body {
     fn tint(&self, wo: Vec3, wi: Vec3) -> Rgb {
         if wo[2] * wi[2] < 0.0 { self.color } else { [1.0; 3] }
     }
+
+    /// f of the boundary with that of the rest.
+    fn mixed(&self, wo: Vec3, wi: Vec3, rest: Rgb) -> Rgb {
+        let (boundary, tint) = (self.boundary.eval(wo, wi), self.tint(wo, wi));
+        std::array::from_fn(|c| self.share * tint[c] * boundary[c] + (1.0 - self.share) * rest[c])
+    }
+
+    /// A direction of the boundary, or of the rest as `sample_rest` finds it.
+    fn choose(
+        &self,
+        wo: Vec3,
+        [u, v, choice]: [f64; 3],
+        sample_rest: impl FnOnce(&Surface, [f64; 3]) -> Option<Vec3>,
+    ) -> Option<Vec3> {
+        let odds = self.odds(wo);
+        if choice < odds {
+            Some(self.boundary.sample(wo, [u, v, choice / odds])?.wi)
+        } else {
+            sample_rest(self.rest(wo)?, [u, v, (choice - odds) / (1.0 - odds)])
+        }
+    }
+
+    /// The density of [`Body::choose`].
+    fn density(&self, wo: Vec3, wi: Vec3, rest_pdf: impl FnOnce(&Surface) -> f64) -> f64 {
+        let odds = self.odds(wo);
+        odds * self.boundary.pdf(wo, wi) + self.rest(wo).map_or(0.0, |rest| (1.0 - odds) * rest_pdf(rest))
+    }
 }
 
 impl Bsdf for Body {
     fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb {
-        let (boundary, tint) = (self.boundary.eval(wo, wi), self.tint(wo, wi));
-        let rest = self.rest(wo).map_or([0.0; 3], |rest| rest.eval(wo, wi));
-        std::array::from_fn(|c| self.share * tint[c] * boundary[c] + (1.0 - self.share) * rest[c])
+        self.mixed(wo, wi, self.rest(wo).map_or([0.0; 3], |rest| rest.eval(wo, wi)))
     }
 
     fn sample(&self, wo: Vec3, u: [f64; 3]) -> Option<BsdfSample> {
-        let odds = self.odds(wo);
-        if odds == 1.0 {
+        if self.odds(wo) == 1.0 {
             // The boundary's own weight has a shorter form.
             let mut sample = self.boundary.sample(wo, u)?;
             let tint = self.tint(wo, sample.wi);
             sample.weight = std::array::from_fn(|c| self.share * tint[c] * sample.weight[c]);
             return Some(sample);
         }
-        let wi = if u[2] < odds {
-            self.boundary.sample(wo, [u[0], u[1], u[2] / odds])?.wi
-        } else {
-            self.rest(wo)?.sample(wo, [u[0], u[1], (u[2] - odds) / (1.0 - odds)])?.wi
-        };
-        BsdfSample::at(self, wo, wi)
+        BsdfSample::at(self, wo, self.choose(wo, u, |rest, u| Some(rest.sample(wo, u)?.wi))?)
     }
 
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f64 {
-        let odds = self.odds(wo);
-        odds * self.boundary.pdf(wo, wi) + self.rest(wo).map_or(0.0, |rest| (1.0 - odds) * rest.pdf(wo, wi))
+        self.density(wo, wi, |rest| rest.pdf(wo, wi))
+    }
+}
+
+/// The same where the clear coat has a frame of its own, given in that of what lies under it.
+impl Scatter {
+    /// Whether there is a clear coat.
+    pub(crate) fn is_coated(&self) -> bool {
+        match self {
+            Self::Thin(surface) => surface.is_coated(),
+            Self::Body(body) => body.rest.as_ref().is_some_and(Surface::is_coated),
+            Self::Model(_) => false,
+        }
+    }
+
+    /// f of what lies under the coat, and of the coat, each for the cosine about its own normal.
+    pub(crate) fn layers(&self, coat: &Frame, wo: Vec3, wi: Vec3) -> [Rgb; 2] {
+        let of = |surface: &Surface| {
+            let bent = BentCoat::new(surface, coat);
+            (bent.under(wo, wi), bent.coat(wo, wi))
+        };
+        match self {
+            Self::Thin(surface) => {
+                let (under, coat) = of(surface);
+                [under, [coat; 3]]
+            }
+            Self::Body(body) => {
+                let (under, coat) = body.rest(wo).map_or(([0.0; 3], 0.0), of);
+                [body.mixed(wo, wi, under), [(1.0 - body.share) * coat; 3]]
+            }
+            Self::Model(model) => [model.0.eval(wo, wi), [0.0; 3]],
+        }
+    }
+
+    /// A direction of one of the layers.
+    pub(crate) fn sample_layers(&self, coat: &Frame, wo: Vec3, u: [f64; 3]) -> Option<Vec3> {
+        match self {
+            Self::Thin(surface) => BentCoat::new(surface, coat).sample(wo, u),
+            Self::Body(body) => body.choose(wo, u, |rest, u| BentCoat::new(rest, coat).sample(wo, u)),
+            Self::Model(model) => Some(model.0.sample(wo, u)?.wi),
+        }
+    }
+
+    /// The density of [`Scatter::sample_layers`].
+    pub(crate) fn layers_pdf(&self, coat: &Frame, wo: Vec3, wi: Vec3) -> f64 {
+        match self {
+            Self::Thin(surface) => BentCoat::new(surface, coat).pdf(wo, wi),
+            Self::Body(body) => body.density(wo, wi, |rest| BentCoat::new(rest, coat).pdf(wo, wi)),
+            Self::Model(model) => model.0.pdf(wo, wi),
+        }
     }
 }
 

@@ -26,6 +26,8 @@ pub(crate) struct Vertex<'w> {
     pub(crate) material: &'w SceneMaterial,
     /// Of shading: its normal is on the viewer's side just where `normal` is.
     pub(crate) frame: Frame,
+    /// That of a clear coat that the viewer sees, in `frame`, where it is another; its normal is on the viewer's side too.
+    coat: Option<Frame>,
     /// To the viewer, in `frame`.
     pub(crate) wo: Vec3,
     pub(crate) finish: Cow<'w, Finish>,
@@ -45,29 +47,39 @@ impl<'w> Vertex<'w> {
             Some(finish) if part.mesh.tangents.is_empty() => (Cow::Borrowed(finish), None),
             _ => {
                 let local = geometry.surface_point(place.triangle, place.at);
-                let (finish, bump) = world.finish(part.instance.material, &local);
-                (finish, local.tangent.map(|tangent| (tangent, bump)))
+                let (finish, bumps) = world.finish(part.instance.material, &local);
+                (finish, local.tangent.map(|tangent| (tangent, bumps)))
             }
         };
         let turned = !matches!(finish.scatter, Scatter::Body(_)) && dot(outward, wo) < 0.0;
         let side = if turned { -1.0 } else { 1.0 };
         let normal = scale(outward, side);
         let smooth = try_normalize(geometry.smooth_normal(place.triangle, place.at)).unwrap_or(outward);
-        let unbent = match textured {
-            None => Frame::from_normal(smooth),
-            Some(([x, y, z, w], bump)) => {
+        let (unbent, coat) = match textured {
+            None => (Frame::from_normal(smooth), None),
+            Some(([x, y, z, w], bumps)) => {
                 let tangent = part.instance.world_from_local.vector([x, y, z]);
-                shading_frame(smooth, (tangent, w * part.orientation), bump)
+                let bent = |bump| shading_frame(smooth, (tangent, w * part.orientation), bump);
+                let coat = bumps.and_then(|bumps| bumps.coat).filter(|_| finish.scatter.is_coated());
+                (bent(bumps.map(|bumps| bumps.base)), coat.map(|bump| bent(Some(bump))))
             }
         };
-        let frame = facing(Frame { normal: scale(unbent.normal, side), ..unbent }, wo, dot(normal, wo));
+        let faced = |unbent: Frame| {
+            let outer = Frame { normal: scale(unbent.normal, side), ..unbent };
+            facing(outer, wo, dot(normal, wo))
+        };
+        let (frame, coat) = (faced(unbent), coat.map(faced));
         let wo = frame.local_from_world(wo);
-        Self { place, point, normal, material: part.material, wo, frame, finish }
+        let coat = coat.filter(|_| wo[2] > 0.0).map(|coat| seen_from(&frame, &coat));
+        Self { place, point, normal, material: part.material, wo, frame, coat, finish }
     }
 
     /// f |cos θ| for light from `wi`, and the density with which [`Vertex::sample`] goes there; `None` where the sides of shading and
     /// of the triangle differ, so that no light leaks.
     pub(crate) fn scattered(&self, wi: Vec3) -> Option<(Rgb, f64)> {
+        if let Some(coat) = &self.coat {
+            return self.scattered_by_layers(coat, wi);
+        }
         let local = self.local(wi)?;
         let f = self.finish.scatter.eval(self.wo, local);
         let cosine = local[2].abs();
@@ -76,6 +88,9 @@ impl<'w> Vertex<'w> {
 
     /// A direction to go on, f |cos θ| / pdf, and the density.
     pub(crate) fn sample(&self, u: [f64; 3]) -> Option<(Vec3, Rgb, f64)> {
+        if let Some(coat) = &self.coat {
+            return self.sample_layers(coat, u);
+        }
         let sample = self.finish.scatter.sample(self.wo, u)?;
         let wi = try_normalize(self.frame.world_from_local(sample.wi))?;
         self.local(wi)?;
@@ -90,6 +105,28 @@ impl<'w> Vertex<'w> {
     fn local(&self, wi: Vec3) -> Option<Vec3> {
         let local = self.frame.local_from_world(wi);
         (local[2] * dot(self.normal, wi) > 0.0).then_some(local)
+    }
+
+    /// [`Vertex::scattered`] of a coat with a frame of its own: each layer scatters where its side and the triangle's are one. The
+    /// density is that of all ways to come to `wi`, of those too whose layer does not scatter there.
+    fn scattered_by_layers(&self, coat: &Frame, wi: Vec3) -> Option<(Rgb, f64)> {
+        let local = self.frame.local_from_world(wi);
+        let outside = dot(self.normal, wi);
+        let cosine = |z: f64| if z * outside > 0.0 { z.abs() } else { 0.0 };
+        let (under, over) = (cosine(local[2]), cosine(coat.local_from_world(local)[2]));
+        if under + over == 0.0 {
+            return None;
+        }
+        let [f_under, f_coat] = self.finish.scatter.layers(coat, self.wo, local);
+        let scattered = std::array::from_fn(|c| f_under[c] * under + f_coat[c] * over);
+        Some((scattered, self.finish.scatter.layers_pdf(coat, self.wo, local)))
+    }
+
+    fn sample_layers(&self, coat: &Frame, u: [f64; 3]) -> Option<(Vec3, Rgb, f64)> {
+        let local = self.finish.scatter.sample_layers(coat, self.wo, u)?;
+        let wi = try_normalize(self.frame.world_from_local(local))?;
+        let (scattered, pdf) = self.scattered_by_layers(coat, wi)?;
+        (pdf > 0.0 && pdf.is_finite()).then(|| (wi, scattered.map(|s| s / pdf), pdf))
     }
 }
 
@@ -119,6 +156,13 @@ fn facing(frame: Frame, wo: Vec3, side: f64) -> Frame {
     }
     let bent = sub(frame.normal, scale(wo, cosine - wanted));
     try_normalize(bent).map_or(frame, |normal| frame_along(normal, frame.tangent, handedness(&frame)))
+}
+
+/// The second frame in the first.
+fn seen_from(frame: &Frame, other: &Frame) -> Frame {
+    let [tangent, bitangent, normal] =
+        [other.tangent, other.bitangent, other.normal].map(|axis| frame.local_from_world(axis));
+    Frame { tangent, bitangent, normal }
 }
 
 fn handedness(frame: &Frame) -> f64 {

@@ -24,7 +24,8 @@ use std::sync::Arc;
 ///   eye looks through its back.
 /// - A material with a volume bounds a body that light passes, with the index of the material; without one it is thin.
 /// - Sphere and rectangle lights are seen, and stop what meets their shining side; the back of a rectangle is not there.
-/// - The clear coat has the normal of the surface below it.
+/// - The clear coat has the normal of its own texture, or the interpolated one of the vertices; what lies under it has its own
+///   (KHR_materials_clearcoat).
 #[derive(Debug)]
 pub struct World<'a> {
     scene: &'a Scene,
@@ -34,6 +35,14 @@ pub struct World<'a> {
     /// Of each material; `None` where it depends on the place.
     finishes: Vec<Option<Finish>>,
     lights: LightTable,
+}
+
+/// Normals of textures in the frame of tangent, bitangent and normal.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bumps {
+    pub(crate) base: Vec3,
+    /// The clear coat's, where it is another.
+    pub(crate) coat: Option<Vec3>,
 }
 
 /// What a ray meets.
@@ -183,18 +192,21 @@ impl<'a> World<'a> {
     /// The material that is the same everywhere, normals too.
     #[inline]
     pub(crate) fn constant_finish(&self, material: usize) -> Option<&Finish> {
-        self.finishes[material].as_ref().filter(|_| self.scene.materials[material].textures.normal.is_none())
+        let textures = &self.scene.materials[material].textures;
+        self.finishes[material].as_ref().filter(|_| textures.normal.is_none() && textures.clearcoat_normal.is_none())
     }
 
-    /// The material at a place, and the normal of its texture in the frame of tangent, bitangent and normal.
-    pub(crate) fn finish(&self, material: usize, point: &SurfacePoint) -> (Cow<'_, Finish>, Option<Vec3>) {
+    /// The material at a place, and the normals of its textures.
+    pub(crate) fn finish(&self, material: usize, point: &SurfacePoint) -> (Cow<'_, Finish>, Option<Bumps>) {
         let (index, material) = (material, &self.scene.materials[material]);
         if let Some(finish) = self.constant_finish(index) {
             return (Cow::Borrowed(finish), None);
         }
         let found = material.at(&self.scene.textures, &point.uv, point.color);
         let made = || Cow::Owned(Finish::new(&found.material, material.volume.as_ref(), self.tables));
-        (self.finishes[index].as_ref().map_or_else(made, Cow::Borrowed), Some(found.normal))
+        let coat = Some(found.clearcoat_normal).filter(|coat| *coat != found.normal);
+        let bumps = Bumps { base: found.normal, coat };
+        (self.finishes[index].as_ref().map_or_else(made, Cow::Borrowed), Some(bumps))
     }
 
     fn emission(&self, triangle: u32, at: [f32; 2]) -> Rgb {

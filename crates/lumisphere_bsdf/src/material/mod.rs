@@ -5,6 +5,7 @@
 //! | `definition` | [`Material`]: glTF's parameters |
 //! | `choices` | [`Compensation`], [`DiffuseCoupling`]: where the textbooks differ |
 //! | `surface` | [`Surface`]: the layers together, `eval / sample / pdf` |
+//! | `bent_coat` | [`BentCoat`]: the same with a normal of the coat's own |
 //! | `base` | metal and dielectric, mixed |
 //! | `specular`, `sheen` | their lobes |
 //! | `compensation` | multiple scattering between facets |
@@ -15,6 +16,7 @@
 mod albedo_tables;
 mod balance;
 mod base;
+mod bent_coat;
 mod choices;
 mod compensation;
 mod definition;
@@ -25,6 +27,7 @@ mod specular_albedo;
 mod surface;
 
 pub use albedo_tables::AlbedoTables;
+pub use bent_coat::BentCoat;
 pub use choices::{Compensation, DiffuseCoupling};
 pub use definition::Material;
 pub use surface::Surface;

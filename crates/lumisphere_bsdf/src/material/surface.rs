@@ -51,8 +51,8 @@ const COAT: Ends = Ends { f0: COAT_ROOT * COAT_ROOT, f90: 1.0 };
 
 /// The probabilities of the ways to sample, which sum to 1.
 #[derive(Debug, Clone, Copy)]
-struct Odds {
-    coat: f64,
+pub(super) struct Odds {
+    pub(super) coat: f64,
     specular: f64,
     transmitted: f64,
     /// By the cosine: diffuse, sheen, and what bounces between facets.
@@ -77,59 +77,79 @@ impl Material {
 impl Bsdf for Surface {
     fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb {
         let Some([wo, wi]) = self.seen_from_above([wo, wi]) else { return [0.0; 3] };
-        if wi[2] == 0.0 {
-            return [0.0; 3];
-        }
-        let (wo, wi) = (self.turned(wo), self.turned(wi));
-        let (under_coat, under_sheen) = (1.0 - self.coat_albedo(wo), 1.0 - self.sheen_albedo(wo[2]));
-        let through = under_coat * under_sheen;
-        if wi[2] < 0.0 {
-            return self.base.transmitted(wo, wi).map(|f| through * f);
-        }
-        let base = self.base.reflected(wo, wi);
-        let sheen = self.sheen.as_ref().map_or([0.0; 3], |sheen| sheen.f(wo, wi));
-        let coat = self.coat.as_ref().map_or(0.0, |c| c.strength * c.lobe.seen(wo, wi).f(COAT, Compensation::None));
-        from_fn(|i| coat + under_coat * sheen[i] + through * base[i])
+        let (under, coat) = (self.under(wo, wi, self.coat_albedo(wo)), self.coat(wo, wi));
+        under.map(|f| coat + f)
     }
 
     fn sample(&self, wo: Vec3, u: [f64; 3]) -> Option<BsdfSample> {
         let [above] = self.seen_from_above([wo])?;
-        let odds = self.odds(above);
-        let (turned, square) = (self.turned(above), [u[0], u[1]]);
-        let wi = match u[2] {
-            x if x < odds.coat => self.coat.as_ref()?.lobe.sample(above, square)?,
-            x if x < odds.coat + odds.specular => self.turned_back(self.base.lobe().sample(turned, square)?),
-            x if x < 1.0 - odds.wide => mirrored(self.turned_back(self.base.lobe().sample(turned, square)?)),
-            _ => CosineHemisphere.sample(square),
-        };
+        let odds = self.odds(above, self.coat_albedo(above));
+        let wi = if u[2] < odds.coat { self.sample_coat(above, u)? } else { self.sample_under(above, u, &odds)? };
         BsdfSample::at(self, wo, if wo[2] < 0.0 { mirrored(wi) } else { wi })
     }
 
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f64 {
         let Some([wo, wi]) = self.seen_from_above([wo, wi]) else { return 0.0 };
-        let odds = self.odds(wo);
+        let odds = self.odds(wo, self.coat_albedo(wo));
+        self.pdf_coat(wo, wi, &odds) + self.pdf_under(wo, wi, &odds)
+    }
+}
+
+/// The coat and what lies under it, apart: for a viewer above.
+impl Surface {
+    /// c f_coat.
+    pub(super) fn coat(&self, wo: Vec3, wi: Vec3) -> f64 {
+        match &self.coat {
+            Some(coat) if wi[2] > 0.0 => coat.strength * coat.lobe.seen(wo, wi).f(COAT, Compensation::None),
+            _ => 0.0,
+        }
+    }
+
+    /// (1 - c E_coat) f_under, c E_coat being `coat_albedo`.
+    pub(super) fn under(&self, wo: Vec3, wi: Vec3, coat_albedo: f64) -> Rgb {
+        if wi[2] == 0.0 {
+            return [0.0; 3];
+        }
+        let (wo, wi) = (self.turned(wo), self.turned(wi));
+        let under_coat = 1.0 - coat_albedo;
+        let through = under_coat * (1.0 - self.sheen_albedo(wo[2]));
+        if wi[2] < 0.0 {
+            return self.base.transmitted(wo, wi).map(|f| through * f);
+        }
+        let base = self.base.reflected(wo, wi);
+        let sheen = self.sheen.as_ref().map_or([0.0; 3], |sheen| sheen.f(wo, wi));
+        from_fn(|i| under_coat * sheen[i] + through * base[i])
+    }
+
+    pub(super) fn sample_coat(&self, wo: Vec3, u: [f64; 3]) -> Option<Vec3> {
+        self.coat.as_ref()?.lobe.sample(wo, [u[0], u[1]])
+    }
+
+    /// For a third number that does not fall to the coat.
+    pub(super) fn sample_under(&self, wo: Vec3, u: [f64; 3], odds: &Odds) -> Option<Vec3> {
+        let (wo, square) = (self.turned(wo), [u[0], u[1]]);
+        Some(match u[2] {
+            x if x < odds.coat + odds.specular => self.turned_back(self.base.lobe().sample(wo, square)?),
+            x if x < 1.0 - odds.wide => mirrored(self.turned_back(self.base.lobe().sample(wo, square)?)),
+            _ => CosineHemisphere.sample(square),
+        })
+    }
+
+    pub(super) fn pdf_coat(&self, wo: Vec3, wi: Vec3, odds: &Odds) -> f64 {
+        self.coat.as_ref().map_or(0.0, |coat| odds.coat * coat.lobe.pdf(wo, wi))
+    }
+
+    pub(super) fn pdf_under(&self, wo: Vec3, wi: Vec3, odds: &Odds) -> f64 {
         let turned = self.turned(wo);
         if wi[2] < 0.0 {
             return odds.transmitted * self.base.lobe().pdf(turned, self.turned(mirrored(wi)));
         }
-        let coat = self.coat.as_ref().map_or(0.0, |coat| odds.coat * coat.lobe.pdf(wo, wi));
-        coat + odds.specular * self.base.lobe().pdf(turned, self.turned(wi)) + odds.wide * CosineHemisphere.pdf(wi)
-    }
-}
-
-impl Surface {
-    /// The directions, the viewer's first, as they are if it is above the surface; mirrored if it is below a thin one.
-    fn seen_from_above<const N: usize>(&self, directions: [Vec3; N]) -> Option<[Vec3; N]> {
-        match directions[0][2] {
-            z if z > 0.0 => Some(directions),
-            z if z < 0.0 && self.base.transmits() => Some(directions.map(mirrored)),
-            _ => None,
-        }
+        odds.specular * self.base.lobe().pdf(turned, self.turned(wi)) + odds.wide * CosineHemisphere.pdf(wi)
     }
 
-    fn odds(&self, wo: Vec3) -> Odds {
+    pub(super) fn odds(&self, wo: Vec3, coat: f64) -> Odds {
         let turned = self.turned(wo);
-        let (coat, sheen, base) = (self.coat_albedo(wo), self.sheen_albedo(wo[2]), self.base.shares(turned));
+        let (sheen, base) = (self.sheen_albedo(wo[2]), self.base.shares(turned));
         let (under_coat, through) = (1.0 - coat, (1.0 - coat) * (1.0 - sheen));
         let wide = under_coat * sheen + through * base.diffuse;
         let sum = coat + wide + through * (base.specular + base.transmitted);
@@ -140,8 +160,25 @@ impl Surface {
         Odds { coat, specular, transmitted, wide: (1.0 - coat - specular - transmitted).max(0.0) }
     }
 
-    fn coat_albedo(&self, wo: Vec3) -> f64 {
+    /// c E_coat.
+    pub(super) fn coat_albedo(&self, wo: Vec3) -> f64 {
         self.coat.as_ref().map_or(0.0, |c| c.strength * c.lobe.albedo(COAT, wo, Compensation::None))
+    }
+}
+
+impl Surface {
+    /// Whether it has a clear coat.
+    pub fn is_coated(&self) -> bool {
+        self.coat.is_some()
+    }
+
+    /// The directions, the viewer's first, as they are if it is above the surface; mirrored if it is below a thin one.
+    fn seen_from_above<const N: usize>(&self, directions: [Vec3; N]) -> Option<[Vec3; N]> {
+        match directions[0][2] {
+            z if z > 0.0 => Some(directions),
+            z if z < 0.0 && self.base.transmits() => Some(directions.map(mirrored)),
+            _ => None,
+        }
     }
 
     fn sheen_albedo(&self, n_dot_v: f64) -> f64 {
