@@ -7,9 +7,9 @@ use crate::values::{LowerHemisphere, Repair};
 use anyhow::{Context, Result, anyhow, bail};
 use lumisphere::image::{
     Builtin, CubeLayout, Environment, Picture, Repairs, Statistics, adjust_exposure, cube_from_faces, cube_from_flat,
-    face_of_name, fill_lower_hemisphere, sanitise, scale_to_illuminance, statistics,
+    face_of_name, fill_lower_hemisphere, resample, sanitise, scale_to_illuminance, statistics,
 };
-use lumisphere::sphere::{Grid, Projection, guess_projection};
+use lumisphere::sphere::{Grid, Projection, Rotation, guess_projection};
 use lumisphere_codec::{Limits, decode_picture, detect};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -78,6 +78,23 @@ pub(crate) struct Adjustments {
     pub exposure: f64,
     /// Lux on a plane that faces the picture's up.
     pub illuminance: Option<f64>,
+}
+
+impl Adjustments {
+    /// Nothing but what a picture needs to be light at all.
+    pub(crate) fn as_it_is(layout: Option<LayoutChoice>, faces: FaceSideChoice) -> Self {
+        let (repair, lower_hemisphere) = (Repair::Neighbours, LowerHemisphere::Keep);
+        Self { layout, faces, repair, lower_hemisphere, exposure: 0.0, illuminance: None }
+    }
+}
+
+/// The environment as a lat-long of about as many texels, as the path tracer reads it.
+pub(crate) fn lat_long(environment: Environment) -> Result<Environment> {
+    if environment.projection() == Projection::LatLong {
+        return Ok(environment);
+    }
+    let rows = ((environment.grid().texel_count() as f64 / 2.0).sqrt().ceil() as usize).max(1);
+    Ok(resample(&environment, Grid::new(Projection::LatLong, 2 * rows, rows)?, &Rotation::IDENTITY))
 }
 
 /// A picture as it came, laid over the sphere.

@@ -7,7 +7,6 @@ use crate::convert_harmonics::{radiance_of_nine, turned_nine};
 use crate::environment_input::{Adjustments, Source, load, prepare, read_file};
 use crate::target_plan::unknown_target;
 use crate::timings::Timings;
-use crate::values::{LowerHemisphere, Repair};
 use crate::verify_format::StoredTexels;
 use crate::verify_measure::Truth;
 use crate::verify_orientation::{Orientation, SIZE};
@@ -114,16 +113,10 @@ fn holds(args: &VerifyArgs, content: &Content) -> Result<HoldsChoice> {
     }
 }
 
-fn environment(args: &VerifyArgs, source: &Source, limits: Limits) -> Result<Environment> {
+/// The environment to hold a file, or shading, against.
+pub(crate) fn environment(args: &VerifyArgs, source: &Source, limits: Limits) -> Result<Environment> {
     let timings = Timings::start();
-    let adjustments = Adjustments {
-        layout: args.foreign.layout,
-        faces: args.foreign.faces.unwrap_or(FaceSideChoice::Inside),
-        repair: Repair::Neighbours,
-        lower_hemisphere: LowerHemisphere::Keep,
-        exposure: 0.0,
-        illuminance: None,
-    };
+    let adjustments = Adjustments::as_it_is(args.foreign.layout, args.foreign.faces.unwrap_or(FaceSideChoice::Inside));
     let prepared = load(source, &adjustments, limits, &timings).and_then(|l| prepare(l, &adjustments, &timings));
     Ok(prepared.with_context(|| source.place())?.environment)
 }

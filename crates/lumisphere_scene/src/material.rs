@@ -28,7 +28,7 @@ pub struct Volume {
     pub thickness: f64,
     /// Way in metres of the world after which `attenuation_color` is left of white light; infinite for clear glass.
     pub attenuation_distance: f64,
-    /// Linear Rec.709.
+    /// Linear Rec.709, in [0, 1].
     pub attenuation_color: [f64; 3],
 }
 
@@ -72,11 +72,11 @@ pub struct SceneMaterial {
     pub name: String,
     /// The numbers.
     pub factors: Material,
-    /// The alpha of the base colour.
+    /// The alpha of the base colour, in [0, 1].
     pub base_alpha: f64,
     /// What multiplies them.
     pub textures: MaterialTextures,
-    /// Factor of x and y of the normal texture.
+    /// Factor of x and y of the normal texture, any finite number; 1 leaves them.
     pub normal_scale: f64,
     /// The same of the clear coat's.
     pub clearcoat_normal_scale: f64,

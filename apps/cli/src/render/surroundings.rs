@@ -4,13 +4,12 @@ use super::args::LightArgs;
 use crate::builtin_source::PREFIX;
 use crate::choices::FaceSideChoice;
 use crate::convert_command::one_source;
-use crate::environment_input::{Adjustments, Source, load, prepare};
+use crate::environment_input::{Adjustments, Source, lat_long, load, prepare};
 use crate::timings::Timings;
-use crate::values::{LowerHemisphere, Repair};
 use anyhow::{Context, Result};
-use lumisphere::image::{Environment, adjust_exposure, resample};
+use lumisphere::image::{Environment, adjust_exposure};
 use lumisphere::scene::Scene;
-use lumisphere::sphere::{Grid, Projection, Rotation};
+use lumisphere::sphere::Rotation;
 use lumisphere::trace::EnvironmentLight;
 use lumisphere_codec::Limits;
 
@@ -71,14 +70,7 @@ fn own_light(scene: &Scene) -> Option<String> {
 }
 
 fn light(source: &Source, args: &LightArgs, limits: Limits) -> Result<EnvironmentLight> {
-    let as_it_is = Adjustments {
-        layout: None,
-        faces: FaceSideChoice::Inside,
-        repair: Repair::Neighbours,
-        lower_hemisphere: LowerHemisphere::Keep,
-        exposure: 0.0,
-        illuminance: None,
-    };
+    let as_it_is = Adjustments::as_it_is(None, FaceSideChoice::Inside);
     let timings = Timings::start();
     let prepared = prepare(load(source, &as_it_is, limits, &timings)?, &as_it_is, &timings)?;
     finished(prepared.environment, 1.0, Rotation::IDENTITY, args)
@@ -91,7 +83,7 @@ fn finished(
     rotation: Rotation,
     args: &LightArgs,
 ) -> Result<EnvironmentLight> {
-    let mut panorama = panorama(environment)?;
+    let mut panorama = lat_long(environment)?;
     let factor = intensity * args.env_intensity;
     if factor == 0.0 {
         panorama = Environment::filled(panorama.grid(), [0.0; 3]);
@@ -103,13 +95,4 @@ fn finished(
         degrees => Rotation::from_yaw_pitch_roll(degrees.to_radians(), 0.0, 0.0).then_after(rotation),
     };
     Ok(EnvironmentLight::new(panorama, args.env_filter.value(), turn)?)
-}
-
-/// As a lat-long of about as many texels.
-fn panorama(environment: Environment) -> Result<Environment> {
-    if environment.projection() == Projection::LatLong {
-        return Ok(environment);
-    }
-    let rows = ((environment.grid().texel_count() as f64 / 2.0).sqrt().ceil() as usize).max(1);
-    Ok(resample(&environment, Grid::new(Projection::LatLong, 2 * rows, rows)?, &Rotation::IDENTITY))
 }

@@ -3,6 +3,7 @@
 use super::spheres::{POINTS, Point, points};
 use super::table::Table;
 use super::truth::{Truth, truth};
+use crate::environment_input::lat_long;
 use anyhow::Result;
 use lumisphere::bake::shading::{AmbientDiffuse, BakedLight, ShadingChoices, shade, shade_diffuse, specular_share};
 use lumisphere::bake::{BakeSettings, BakedEnvironment, ChainSettings, Outputs, RoughnessCurve, bake};
@@ -124,7 +125,8 @@ impl Stage {
         let baked = bake(environment.clone(), &with_exact_levels(), &|_| {})?;
         let halved = halved(&baked);
         let table = Table::compute()?;
-        let light = EnvironmentLight::new(lat_long(environment)?, EnvironmentFilter::Patches, Rotation::IDENTITY)?;
+        let light =
+            EnvironmentLight::new(lat_long(environment.clone())?, EnvironmentFilter::Patches, Rotation::IDENTITY)?;
         let (tables, points) = (AlbedoTables::compute(), points());
         let (mut truths, mut albedos) = (Vec::new(), Vec::new());
         for (level, p) in ROUGHNESSES.into_iter().enumerate() {
@@ -319,14 +321,4 @@ pub(super) fn halved(baked: &BakedEnvironment) -> BakedEnvironment {
 
 pub(super) fn half(value: f32) -> f32 {
     half::f16::from_f32(value.min(65504.0)).to_f32()
-}
-
-fn lat_long(environment: &Environment) -> Result<Environment> {
-    use lumisphere::image::resample;
-    use lumisphere::sphere::{Grid, Projection};
-    if environment.projection() == Projection::LatLong {
-        return Ok(environment.clone());
-    }
-    let height = (2 * environment.grid().height()).clamp(64, 2048);
-    Ok(resample(environment, Grid::new(Projection::LatLong, 2 * height, height)?, &Rotation::IDENTITY))
 }

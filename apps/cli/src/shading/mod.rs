@@ -8,15 +8,12 @@ mod table;
 mod truth;
 
 use crate::args::VerifyArgs;
-use crate::choices::FaceSideChoice;
 use crate::convert_command::one_source;
-use crate::environment_input::{Adjustments, load, prepare};
 use crate::files::{expect_png, write_one};
 use crate::output;
 use crate::progress::{Show, bar};
-use crate::timings::Timings;
-use crate::values::{LowerHemisphere, Repair};
-use anyhow::{Context, Result, bail};
+use crate::verify_foreign;
+use anyhow::{Result, bail};
 use lumisphere_codec::Limits;
 use measure::{ROUGHNESSES, Stage};
 use report::Report;
@@ -33,30 +30,18 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<()> {
     if given.target.is_some() || given.curve.is_some() || given.turn.is_some() || given.holds.is_some() {
         bail!("--target, --curve, --turn and --holds are for a file; --shading bakes ENV itself");
     }
-    let timings = Timings::start();
     let source = one_source(&args.environment)?;
-    let adjustments = Adjustments {
-        layout: args.foreign.layout,
-        faces: args.foreign.faces.unwrap_or(FaceSideChoice::Inside),
-        repair: Repair::Neighbours,
-        lower_hemisphere: LowerHemisphere::Keep,
-        exposure: 0.0,
-        illuminance: None,
-    };
-    let limits = Limits { max_bytes: args.common.max_memory };
-    let prepared = load(&source, &adjustments, limits, &timings)
-        .and_then(|loaded| prepare(loaded, &adjustments, &timings))
-        .with_context(|| source.place())?;
+    let environment = verify_foreign::environment(args, &source, Limits { max_bytes: args.common.max_memory })?;
     let bar = bar(ROUGHNESSES.len() as u64 + 3, if args.json { Show::Never } else { Show::OnTerminal });
     let told = |step: &str| {
         bar.set_message(step.to_owned());
         bar.inc(1);
     };
-    let stage = Stage::set(&prepared.environment, args.samples, told)?;
-    let report = Report::of(&source.place(), &stage, &prepared.environment, args.samples)?;
+    let stage = Stage::set(&environment, args.samples, told)?;
+    let report = Report::of(&source.place(), &stage, &environment, args.samples)?;
     if let Some(path) = &args.output {
         bar.set_message("picture");
-        write_one(path, &picture::draw(&stage, &prepared.environment, (args.samples / PICTURE_SHARE).max(8))?)?;
+        write_one(path, &picture::draw(&stage, &environment, (args.samples / PICTURE_SHARE).max(8))?)?;
     }
     bar.finish_and_clear();
     if args.json { output::json(&report) } else { output::text(&report.text()) }
